@@ -1,0 +1,79 @@
+/// \file improve.h
+/// Stage `improve`: better hexahedral meshes.
+#pragma once
+
+#include <hex/base/context.h>
+#include <hex/base/diagnostics.h>
+#include <hex/base/registry.h>
+#include <hex/feature/feature_set.h>
+#include <hex/quality/scaled_jacobian.h>
+#include <hex/surface/mesh_types.h>
+#include <hex/volume/hex_mesh.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace hex {
+
+enum class FeatureSource {
+    none,   ///< no sharp features
+    angle,  ///< by the angle between boundary quads
+    list,   ///< from a list of vertices
+};
+
+struct ImproveOptions {
+    /// Name of the method in the registry: `laplace`, `pillow`, `smooth`, `optimize` (paper, section on
+    /// quality), or a plug-in's.
+    std::string method = "smooth";
+    /// Layers (pillow) or sweeps (the others), >= 0. -1: the method's own default, 1 layer or 50 sweeps.
+    int count = -1;
+    /// Share of the computed move that is made, in (0, 1]. Paper: 0.01.
+    double step = 0.01;
+    FeatureSource features = FeatureSource::none;
+    /// For FeatureSource::angle: cosine below which an edge between two boundary quads is sharp, in [-1, 1].
+    double feature_cosine = 0.8;
+    /// For FeatureSource::list: 0-based vertices of the input mesh.
+    std::vector<std::int64_t> feature_vertices;
+    /// Boundary vertices are kept on this surface (the input's own patches, when its triangles carry part
+    /// ids); none: they move tangentially only.
+    const TriangleMesh* surface = nullptr;
+};
+
+/// State of the mesh after a sweep or a layer.
+struct ImproveRecord {
+    int sweep = 0;
+    std::size_t moved = 0;
+    double min = 0.0;
+    double mean = 0.0;
+    std::size_t inverted = 0;
+};
+
+struct ImproveReport {
+    std::string method;
+    QualitySummary before;
+    QualitySummary after;
+    std::size_t sharp_edges = 0;
+    std::vector<ImproveRecord> history;
+    Diagnostics diagnostics;
+};
+
+struct ImproveResult {
+    HexMesh mesh;
+    ImproveReport report;
+};
+
+class Improver {
+  public:
+    virtual ~Improver() = default;
+    virtual ImproveResult improve(const HexMesh& mesh, const ImproveOptions& options,
+                                  const Context& context) const = 0;
+};
+
+Registry<Improver>& improvers();
+
+/// Runs `options.method` and fills `before` and `after`. Throws Error{usage} for options out of range.
+ImproveResult improve(const HexMesh& mesh, const ImproveOptions& options = {}, const Context& context = {});
+
+}  // namespace hex

@@ -1,0 +1,39 @@
+/// \file hex_file.h
+/// Hexahedral meshes and block structures from and to files, by extension (docs/formats.md has the table).
+#pragma once
+
+#include <hex/base/diagnostics.h>
+#include <hex/volume/hex_mesh.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace hex::io {
+
+/// A hexahedral mesh as read, with what the reader noticed.
+struct HexFile {
+    HexMesh mesh;
+    Diagnostics diagnostics;
+};
+
+/// A named scalar a cell or a vertex, written to formats that can carry it (.vtk, .vtu).
+struct ScalarField {
+    std::string name;
+    std::vector<double> values;
+};
+struct Fields {
+    std::vector<ScalarField> cell;
+    std::vector<ScalarField> vertex;
+};
+
+/// Reads .k .key .vtk .vtu .mesh (any case). A file of shells or triangles gives Error{bad_input} that says
+/// so. Throws Error{bad_input} with `file:line` (or byte offset), Error{unsupported} for an unknown
+/// extension.
+HexFile read_hex_mesh(const std::filesystem::path& path);
+
+/// Writes the format of the extension; throws Error{unsupported} or Error{output}. Part ids are kept where
+/// the format can.
+void write_hex_mesh(const std::filesystem::path& path, const HexMesh& mesh, const Fields& fields = {});
+
+}  // namespace hex::io

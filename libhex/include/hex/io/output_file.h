@@ -1,0 +1,45 @@
+/// \file output_file.h
+/// A file that appears complete or not at all.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace hex::io {
+
+/// Writes beside the target and renames on `commit`. Destroyed without a commit, it leaves nothing behind and
+/// an old file of that name as it was. A target that exists and is no regular file (/dev/null, a pipe) is
+/// written directly. Every failure throws Error{output} with the path.
+class OutputFile {
+  public:
+    explicit OutputFile(std::filesystem::path path);
+    ~OutputFile();
+    OutputFile(const OutputFile&) = delete;
+    OutputFile& operator=(const OutputFile&) = delete;
+
+    /// Buffered; cheap to call often.
+    void write(std::string_view bytes);
+    /// A buffer to append to with append_number; call `flush_if_large` now and then.
+    std::string& buffer() { return buffer_; }
+    void flush_if_large() {
+        if (buffer_.size() > large) flush();
+    }
+    /// Flushes, syncs the data to the disk and gives the file its name.
+    void commit();
+
+  private:
+    static constexpr std::size_t large = std::size_t{1} << 20;
+    void flush();
+    [[noreturn]] void fail(const std::string& what, int error_number);
+
+    std::filesystem::path path_;
+    std::filesystem::path temporary_;
+    std::string buffer_;
+    int descriptor_ = -1;
+};
+
+/// The whole text as a file, all or nothing.
+void write_file(const std::filesystem::path& path, std::string_view text);
+
+}  // namespace hex::io

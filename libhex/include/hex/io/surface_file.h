@@ -1,0 +1,27 @@
+/// \file surface_file.h
+/// Surfaces from and to files, by extension (docs/formats.md has the table).
+#pragma once
+
+#include <hex/base/diagnostics.h>
+#include <hex/surface/polygon_soup.h>
+
+#include <filesystem>
+
+namespace hex::io {
+
+/// A surface as read, with what the reader noticed (unknown keywords, skipped elements, ...).
+struct SurfaceFile {
+    PolygonSoup soup;
+    Diagnostics diagnostics;
+};
+
+/// Reads .k .key .vtk .vtp .stl .obj .off .ply .mesh (any case). A file of hexahedra gives Error{bad_input}
+/// that says so. Throws Error{bad_input} with `file:line` (or byte offset for binary formats),
+/// Error{unsupported} for an unknown extension.
+SurfaceFile read_surface(const std::filesystem::path& path);
+
+/// Writes the format of the extension; throws Error{unsupported} for one that cannot carry a surface,
+/// Error{output} when the file cannot be written. Doubles round-trip exactly in every text format.
+void write_surface(const std::filesystem::path& path, const PolygonSoup& soup);
+
+}  // namespace hex::io

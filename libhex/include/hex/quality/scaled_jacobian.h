@@ -1,0 +1,40 @@
+/// \file scaled_jacobian.h
+/// Scaled Jacobian of hexahedra as Verdict defines it (8 corners and the centre), the metric of every
+/// acceptance here. Source: Knupp, Ernst, Thompson, Stimpson, Pebay: The Verdict geometric quality library,
+/// SAND2007-1751, section on hexahedra.
+#pragma once
+
+#include <hex/base/context.h>
+#include <hex/volume/hex_mesh.h>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace hex {
+
+/// In [-1, 1]; 1 for a cuboid, <= 0 for an inverted element. 0 when an edge has no length (Verdict leaves
+/// that undefined).
+double scaled_jacobian(const std::array<Vec3, 8>& corners);
+double scaled_jacobian(const HexMesh& mesh, CellId cell);
+
+/// At one corner only: det(e1,e2,e3) / (|e1||e2||e3|).
+double corner_scaled_jacobian(const std::array<Vec3, 8>& corners, int corner);
+
+/// Of every cell, in cell order.
+std::vector<double> scaled_jacobians(const HexMesh& mesh, const Context& context = {});
+
+/// What a person wants to know of a mesh.
+struct QualitySummary {
+    std::size_t vertices = 0;  ///< used by a cell
+    std::size_t cells = 0;
+    double min = 0.0;
+    double mean = 0.0;
+    CellId worst;
+    std::size_t inverted = 0;                 ///< cells with a scaled Jacobian <= 0
+    std::array<std::size_t, 20> histogram{};  ///< counts in equal bins over [-1, 1]
+};
+
+QualitySummary summarize(const HexMesh& mesh, const Context& context = {});
+
+}  // namespace hex

@@ -1,0 +1,92 @@
+/// \file segment.h
+/// Stage `segment`: labels the triangles of a closed surface with the six axis directions.
+#pragma once
+
+#include <hex/base/context.h>
+#include <hex/base/diagnostics.h>
+#include <hex/base/registry.h>
+#include <hex/surface/mesh_types.h>
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace hex {
+
+/// Labels 0..5 = +X -X +Y -Y +Z -Z, one a triangle.
+struct Segmentation {
+    std::vector<int> labels;
+};
+
+/// "+X", "-X", ... of a label.
+const char* label_name(int label);
+/// The unit vector of a label.
+Vec3 label_axis(int label);
+
+/// One label set by hand.
+struct ManualLabel {
+    std::int64_t triangle = 0;  ///< 0-based index of the triangle
+    int label = 0;              ///< 0..5
+};
+
+struct SegmentOptions {
+    /// Name of the method in the registry: `hbecvt` (CVT, then harmonic boundary-enhanced CVT), `cvt`, or a
+    /// plug-in's.
+    std::string method = "hbecvt";
+    /// Weight omega of the boundary-enhanced term, >= 0 (paper, equation of HBECVT; the published runs use
+    /// 0.1).
+    double boundary_weight = 0.1;
+    /// Applied last, in order. An index or label out of range throws Error{bad_input}.
+    std::vector<ManualLabel> manual;
+};
+
+/// One sweep over all triangles.
+struct SweepRecord {
+    std::string phase;      ///< "cvt" or "hbecvt"
+    int sweep = 0;          ///< 1-based within its phase
+    std::size_t moves = 0;  ///< triangles that changed their label
+    double energy = 0.0;    ///< sum of squared distances after the sweep (for hbecvt: with the boundary term)
+};
+
+struct SegmentReport {
+    std::string method;
+    std::array<std::size_t, 6> label_counts{};
+    std::vector<SweepRecord> sweeps;
+    std::size_t manual_changes = 0;  ///< triangles whose label the manual list changed
+    /// Violations of the paper's conditions on a polycube segmentation: opposite labels that share an edge,
+    /// corners where fewer or more than the allowed labels meet, charts with fewer than four corners, ...
+    /// each with its triangle or vertex ids.
+    Diagnostics violations;
+};
+
+struct SegmentResult {
+    Segmentation segmentation;
+    SegmentReport report;
+};
+
+/// Interface of a segmentation method. Implementations fill `segmentation`, and `report.sweeps` when they
+/// iterate; the stage adds the rest.
+class Segmenter {
+  public:
+    virtual ~Segmenter() = default;
+    virtual SegmentResult segment(const TriangleMesh& mesh, const SegmentOptions& options,
+                                  const Context& context) const = 0;
+};
+
+Registry<Segmenter>& segmenters();
+
+/// Runs `options.method`, applies the manual labels, counts and validates. The mesh must be closed and
+/// manifold (make_triangle_mesh). Throws Error{usage} for an unknown method or a negative weight,
+/// Error{bad_input} for manual labels out of range.
+SegmentResult segment(const TriangleMesh& mesh, const SegmentOptions& options = {},
+                      const Context& context = {});
+
+/// The mesh with `part = label + 1` on each face: what `segment` writes.
+TriangleMesh with_labels(TriangleMesh mesh, const Segmentation& segmentation);
+
+/// Checks the paper's conditions for any labelling.
+Diagnostics validate_segmentation(const TriangleMesh& mesh, const Segmentation& segmentation);
+
+}  // namespace hex

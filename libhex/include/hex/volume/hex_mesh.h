@@ -1,0 +1,87 @@
+/// \file hex_mesh.h
+/// The hexahedral half-face mesh of the volume stages.
+#pragma once
+
+#include <hex/base/diagnostics.h>
+#include <hex/base/ids.h>
+#include <hex/base/linear_algebra.h>
+#include <hex/volume/hexahedron.h>
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace hex {
+
+using HexCell = std::array<VertexId, 8>;
+
+/// All-hexahedral mesh with half-face connectivity.
+///
+/// Cells are in VTK_HEXAHEDRON corner order (hexahedron.h). Half-face h = 6 * cell + local face; `twin(h)` is
+/// the half-face of the neighbouring cell, or none on the boundary. The topology is fixed once built;
+/// positions and part ids can be changed. Vertex and cell indices are those given to the constructor, unused
+/// vertices included.
+///
+/// Building is parallel, linear in the number of cells, and gives the same structure for any number of
+/// threads. It throws Error{bad_input}, naming cells (0-based), for: a vertex index out of range, a cell with
+/// a repeated vertex, a cell twice, a face shared by more than two cells, two neighbours that see their
+/// shared face with the same orientation, positions that are not finite.
+class HexMesh {
+  public:
+    HexMesh() = default;
+    HexMesh(std::vector<Vec3> positions, std::vector<HexCell> cells, std::vector<int> parts = {});
+
+    std::size_t vertex_count() const { return positions_.size(); }
+    std::size_t cell_count() const { return cells_.size(); }
+    std::size_t half_face_count() const { return 6 * cells_.size(); }
+    bool empty() const { return cells_.empty(); }
+
+    /// Ids in ascending order, for range-based for loops.
+    auto vertices() const { return IdRange<VertexId>(vertex_count()); }
+    auto cells() const { return IdRange<CellId>(cell_count()); }
+    auto half_faces() const { return IdRange<HalfFaceId>(half_face_count()); }
+
+    const Vec3& position(VertexId v) const { return positions_[v.index()]; }
+    void set_position(VertexId v, const Vec3& p) { positions_[v.index()] = p; }
+    std::span<const Vec3> positions() const { return positions_; }
+    /// Replaces all positions; the count must stay the same.
+    void set_positions(std::vector<Vec3> positions);
+
+    const HexCell& cell(CellId c) const { return cells_[c.index()]; }
+    std::span<const HexCell> cell_array() const { return cells_; }
+    VertexId corner(CellId c, int local) const { return cells_[c.index()][static_cast<std::size_t>(local)]; }
+    /// The eight corner positions of a cell.
+    std::array<Vec3, 8> corner_positions(CellId c) const;
+
+    /// Part id of a cell; 1 unless given.
+    int part(CellId c) const { return parts_.empty() ? 1 : parts_[c.index()]; }
+    /// One part id a cell, or empty.
+    std::span<const int> parts() const { return parts_; }
+
+    static HalfFaceId half_face(CellId c, int local_face) {
+        return HalfFaceId(6 * c.index() + static_cast<std::size_t>(local_face));
+    }
+    static CellId cell_of(HalfFaceId h) { return CellId(h.index() / 6); }
+    static int local_face(HalfFaceId h) { return static_cast<int>(h.index() % 6); }
+    HalfFaceId twin(HalfFaceId h) const { return twins_[h.index()]; }
+    bool is_boundary(HalfFaceId h) const { return !twins_[h.index()].valid(); }
+    /// The neighbour of a cell across a local face, or none.
+    CellId neighbour(CellId c, int local_face) const {
+        const HalfFaceId t = twin(half_face(c, local_face));
+        return t.valid() ? cell_of(t) : CellId();
+    }
+    /// The four vertices of a half-face, counter-clockwise seen from outside its cell.
+    std::array<VertexId, 4> face_vertices(HalfFaceId h) const;
+
+  private:
+    std::vector<Vec3> positions_;
+    std::vector<HexCell> cells_;
+    std::vector<int> parts_;
+    std::vector<HalfFaceId> twins_;
+};
+
+/// Bounding box of the vertices that a cell uses.
+BoundingBox bounding_box(const HexMesh& mesh);
+
+}  // namespace hex

@@ -1,0 +1,22 @@
+#include <hex/base/diagnostics.h>
+
+#include <algorithm>
+
+namespace hex {
+
+std::size_t count_at_least(const Diagnostics& diagnostics, Severity severity) {
+    return static_cast<std::size_t>(std::count_if(
+        diagnostics.begin(), diagnostics.end(), [=](const Diagnostic& d) { return d.severity >= severity; }));
+}
+
+std::string list_ids(const std::vector<std::int64_t>& ids, std::size_t most) {
+    std::string text;
+    for (std::size_t i = 0; i < std::min(most, ids.size()); ++i) {
+        if (i > 0) text += ", ";
+        text += std::to_string(ids[i]);
+    }
+    if (ids.size() > most) text += ", ... (" + std::to_string(ids.size()) + " in all)";
+    return text;
+}
+
+}  // namespace hex

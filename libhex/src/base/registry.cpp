@@ -1,0 +1,10 @@
+#include <hex/base/registry.h>
+
+namespace hex {
+
+std::string& registration_origin() {
+    static std::string origin = "built-in";
+    return origin;
+}
+
+}  // namespace hex

@@ -1,0 +1,87 @@
+#include <hex/base/error.h>
+#include <hex/io/output_file.h>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+namespace hex::io {
+
+OutputFile::OutputFile(std::filesystem::path path) : path_(std::move(path)) {
+    std::error_code ignored;
+    const auto status = std::filesystem::status(path_, ignored);
+    if (std::filesystem::is_directory(status)) fail("is a directory, not a file to write", 0);
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
+        descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
+        if (descriptor_ < 0) fail("cannot be opened for writing", errno);
+        return;
+    }
+    if (std::filesystem::exists(status) && ::access(path_.c_str(), W_OK) != 0)
+        fail("cannot be overwritten", errno);
+    // Through a symbolic link the file it points to is replaced, not the link.
+    if (std::filesystem::is_symlink(std::filesystem::symlink_status(path_, ignored)) &&
+        std::filesystem::exists(status))
+        path_ = std::filesystem::canonical(path_);
+    std::string name = path_.string() + ".part-XXXXXX";
+    descriptor_ = ::mkostemp(name.data(), O_CLOEXEC);
+    if (descriptor_ < 0) fail("cannot be created", errno);
+    temporary_ = name;
+    const mode_t mask = ::umask(0);
+    ::umask(mask);
+    ::fchmod(descriptor_, 0666 & ~mask);
+}
+
+OutputFile::~OutputFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+    if (!temporary_.empty()) ::unlink(temporary_.c_str());
+}
+
+void OutputFile::write(std::string_view bytes) {
+    buffer_.append(bytes);
+    flush_if_large();
+}
+
+void OutputFile::flush() {
+    std::size_t done = 0;
+    while (done < buffer_.size()) {
+        const ssize_t written = ::write(descriptor_, buffer_.data() + done, buffer_.size() - done);
+        if (written < 0) {
+            if (errno == EINTR) continue;
+            fail("cannot be written", errno);
+        }
+        done += static_cast<std::size_t>(written);
+    }
+    buffer_.clear();
+}
+
+void OutputFile::commit() {
+    flush();
+    if (!temporary_.empty() && ::fsync(descriptor_) != 0) fail("cannot be written", errno);
+    const int closed = ::close(descriptor_);
+    descriptor_ = -1;
+    if (closed != 0) fail("cannot be written", errno);
+    if (temporary_.empty()) return;
+    if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail("cannot be replaced", errno);
+    temporary_.clear();
+}
+
+void OutputFile::fail(const std::string& what, int error_number) {
+    const std::string reason = error_number == 0 ? "" : std::string(" (") + std::strerror(error_number) + ")";
+    // A throwing constructor runs no destructor.
+    if (descriptor_ >= 0) ::close(descriptor_);
+    descriptor_ = -1;
+    if (!temporary_.empty()) ::unlink(temporary_.c_str());
+    temporary_.clear();
+    throw Error(ErrorKind::output, what + reason, path_.string());
+}
+
+void write_file(const std::filesystem::path& path, std::string_view text) {
+    OutputFile file(path);
+    file.write(text);
+    file.commit();
+}
+
+}  // namespace hex::io

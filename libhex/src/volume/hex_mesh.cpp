@@ -1,0 +1,174 @@
+#include <hex/base/error.h>
+#include <hex/base/parallel.h>
+#include <hex/volume/hex_mesh.h>
+#include <hex/volume/topology.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hex {
+namespace {
+
+/// A half-face in the bucket of its smallest vertex: the other three vertices in winding order after it.
+struct FaceRecord {
+    std::array<std::uint32_t, 3> rest;
+    std::uint32_t half_face;
+
+    /// The two face-neighbours of the smallest vertex, ascending, then the opposite one: equal for all
+    /// half-faces of a face.
+    std::array<std::uint32_t, 3> key() const {
+        return {std::min(rest[0], rest[2]), std::max(rest[0], rest[2]), rest[1]};
+    }
+};
+
+std::string cells_text(std::initializer_list<std::uint32_t> half_faces) {
+    std::vector<std::int64_t> cells;
+    for (const std::uint32_t h : half_faces) cells.push_back(h / 6);
+    std::sort(cells.begin(), cells.end());
+    return "cells " + list_ids(cells);
+}
+
+/// Serial scan in cell order, so that the first problem of the file is the one that is reported.
+void check_cells(const std::vector<HexCell>& cells, std::size_t vertex_count) {
+    if (cells.size() > std::size_t{Id<int>::none_value} / 6)
+        throw Error(ErrorKind::unsupported, "more hexahedra than 32-bit half-face ids can number");
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+        for (std::size_t i = 0; i < 8; ++i) {
+            if (cells[c][i].index() >= vertex_count)
+                throw Error(ErrorKind::bad_input, "cell " + std::to_string(c) + " uses vertex " +
+                                                      std::to_string(cells[c][i].value()) + " of " +
+                                                      std::to_string(vertex_count));
+            for (std::size_t j = 0; j < i; ++j) {
+                if (cells[c][i] == cells[c][j])
+                    throw Error(ErrorKind::bad_input, "cell " + std::to_string(c) + " uses vertex " +
+                                                          std::to_string(cells[c][i].value()) + " twice");
+            }
+        }
+    }
+}
+
+std::vector<HalfFaceId> find_twins(const std::vector<HexCell>& cells, std::size_t vertex_count) {
+    const std::size_t count = 6 * cells.size();
+    const auto corner_of = [&](std::size_t h, std::size_t i) {
+        return cells[h / 6][static_cast<std::size_t>(hexahedron::face_corners[h % 6][i])].value();
+    };
+    const auto smallest = [&](std::size_t h) {
+        std::size_t first = 0;
+        for (std::size_t i = 1; i < 4; ++i) {
+            if (corner_of(h, i) < corner_of(h, first)) first = i;
+        }
+        return first;
+    };
+
+    // Bucket half-faces by their smallest vertex; a bucket is small, so matching inside it is a short search.
+    std::vector<std::uint32_t> offsets(vertex_count + 1, 0);
+    for (std::size_t h = 0; h < count; ++h) ++offsets[corner_of(h, smallest(h)) + 1];
+    for (std::size_t v = 0; v < vertex_count; ++v) offsets[v + 1] += offsets[v];
+    std::vector<FaceRecord> records(count);
+    {
+        std::vector<std::uint32_t> next(offsets.begin(), offsets.end() - 1);
+        for (std::size_t h = 0; h < count; ++h) {
+            const std::size_t first = smallest(h);
+            FaceRecord record{{}, static_cast<std::uint32_t>(h)};
+            for (std::size_t i = 0; i < 3; ++i) record.rest[i] = corner_of(h, (first + 1 + i) % 4);
+            records[next[corner_of(h, first)]++] = record;
+        }
+    }
+
+    std::vector<HalfFaceId> twins(count);
+    parallel_for(vertex_count, [&](std::size_t v) {
+        const auto begin = records.begin() + offsets[v];
+        const auto end = records.begin() + offsets[v + 1];
+        std::sort(begin, end, [](const FaceRecord& a, const FaceRecord& b) {
+            const auto ka = a.key(), kb = b.key();
+            return ka != kb ? ka < kb : a.half_face < b.half_face;
+        });
+        for (auto a = begin; a != end;) {
+            auto b = a + 1;
+            while (b != end && b->key() == a->key()) ++b;
+            if (b - a > 2)
+                throw Error(ErrorKind::bad_input,
+                            "a face is shared by more than two hexahedra: " +
+                                cells_text({a[0].half_face, a[1].half_face, a[2].half_face}));
+            if (b - a == 2) {
+                if (a[0].rest[0] == a[1].rest[0])
+                    throw Error(ErrorKind::bad_input,
+                                "two hexahedra lie on the same side of their shared face: " +
+                                    cells_text({a[0].half_face, a[1].half_face}),
+                                {}, "one of them is repeated or inside out");
+                twins[a[0].half_face] = HalfFaceId(a[1].half_face);
+                twins[a[1].half_face] = HalfFaceId(a[0].half_face);
+            }
+            a = b;
+        }
+    });
+    return twins;
+}
+
+/// Two cells on the same eight vertices, also when glued to each other consistently.
+void check_repeated_cells(const std::vector<HexCell>& cells, const std::vector<HalfFaceId>& twins) {
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+        for (std::size_t f = 0; f < 6; ++f) {
+            const HalfFaceId t = twins[6 * c + f];
+            if (!t.valid() || t.index() / 6 <= c) continue;
+            const HalfFaceId opposite = twins[6 * c + static_cast<std::size_t>(hexahedron::opposite_face[f])];
+            if (opposite.valid() && opposite.index() / 6 == t.index() / 6) {
+                HexCell a = cells[c], b = cells[t.index() / 6];
+                std::sort(a.begin(), a.end());
+                std::sort(b.begin(), b.end());
+                if (a == b)
+                    throw Error(ErrorKind::bad_input, "two hexahedra have the same eight vertices: cells " +
+                                                          std::to_string(c) + ", " +
+                                                          std::to_string(t.index() / 6));
+            }
+        }
+    }
+}
+
+}  // namespace
+
+HexMesh::HexMesh(std::vector<Vec3> positions, std::vector<HexCell> cells, std::vector<int> parts)
+    : positions_(std::move(positions)), cells_(std::move(cells)), parts_(std::move(parts)) {
+    if (!parts_.empty() && parts_.size() != cells_.size())
+        throw Error(ErrorKind::bad_input, std::to_string(parts_.size()) + " part ids for " +
+                                              std::to_string(cells_.size()) + " cells");
+    for (std::size_t v = 0; v < positions_.size(); ++v) {
+        if (!positions_[v].allFinite())
+            throw Error(ErrorKind::bad_input,
+                        "vertex " + std::to_string(v) + " has a coordinate that is not finite");
+    }
+    check_cells(cells_, positions_.size());
+    twins_ = find_twins(cells_, positions_.size());
+    check_repeated_cells(cells_, twins_);
+}
+
+void HexMesh::set_positions(std::vector<Vec3> positions) {
+    if (positions.size() != positions_.size())
+        throw Error(ErrorKind::usage, "set_positions: " + std::to_string(positions.size()) +
+                                          " positions for " + std::to_string(positions_.size()) +
+                                          " vertices");
+    positions_ = std::move(positions);
+}
+
+std::array<Vec3, 8> HexMesh::corner_positions(CellId c) const {
+    std::array<Vec3, 8> corners;
+    for (std::size_t i = 0; i < 8; ++i) corners[i] = position(cells_[c.index()][i]);
+    return corners;
+}
+
+std::array<VertexId, 4> HexMesh::face_vertices(HalfFaceId h) const {
+    const auto& local = hexahedron::face_corners[static_cast<std::size_t>(local_face(h))];
+    const HexCell& cell = cells_[h.index() / 6];
+    return {cell[static_cast<std::size_t>(local[0])], cell[static_cast<std::size_t>(local[1])],
+            cell[static_cast<std::size_t>(local[2])], cell[static_cast<std::size_t>(local[3])]};
+}
+
+BoundingBox bounding_box(const HexMesh& mesh) {
+    BoundingBox box;
+    for (const HexCell& cell : mesh.cell_array()) {
+        for (const VertexId v : cell) box.add(mesh.position(v));
+    }
+    return box;
+}
+
+}  // namespace hex

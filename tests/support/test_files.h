@@ -1,0 +1,40 @@
+/// \file test_files.h
+/// Files that tests read and write.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+namespace hex::test {
+
+/// Folder of the published models, or an empty path when the build was configured without
+/// HEXSPLINE_REFERENCE_DATA.
+std::filesystem::path reference_data();
+
+/// The project's own data/ folder.
+std::filesystem::path own_data();
+
+/// A fresh folder that is removed at the end of its life.
+class TemporaryFolder {
+  public:
+    TemporaryFolder();
+    ~TemporaryFolder();
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+    const std::filesystem::path& path() const { return path_; }
+    std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+
+  private:
+    std::filesystem::path path_;
+};
+
+std::string read_text(const std::filesystem::path& path);
+void write_text(const std::filesystem::path& path, const std::string& text);
+
+}  // namespace hex::test
+
+/// Skips a test that needs the published models when they are not there.
+#define HEX_NEEDS_REFERENCE_DATA() \
+    if (hex::test::reference_data().empty()) GTEST_SKIP() << "skipped: HEXSPLINE_REFERENCE_DATA is not set"
