@@ -4,7 +4,9 @@
 #include <hex/volume/topology.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <span>
 
 namespace hex {
 namespace {
@@ -47,6 +49,53 @@ void check_cells(const std::vector<HexCell>& cells, std::size_t vertex_count) {
     }
 }
 
+/// The records of one face at the front of a sorted bucket.
+std::span<const FaceRecord> first_face(std::span<const FaceRecord> sorted) {
+    std::size_t count = 1;
+    while (count < sorted.size() && sorted[count].key() == sorted[0].key()) ++count;
+    return sorted.first(count);
+}
+
+/// At most two half-faces, and two of opposite orientation.
+bool is_manifold(std::span<const FaceRecord> face) {
+    return face.size() == 1 || (face.size() == 2 && face[0].rest[0] != face[1].rest[0]);
+}
+
+/// Sorts the half-faces of one bucket and pairs them; false when a face is not manifold.
+bool match_bucket(std::span<FaceRecord> bucket, std::vector<HalfFaceId>& twins) {
+    std::sort(bucket.begin(), bucket.end(), [](const FaceRecord& a, const FaceRecord& b) {
+        const auto ka = a.key(), kb = b.key();
+        return ka != kb ? ka < kb : a.half_face < b.half_face;
+    });
+    for (std::span<const FaceRecord> rest = bucket; !rest.empty();) {
+        const auto face = first_face(rest);
+        if (!is_manifold(face)) return false;
+        if (face.size() == 2) {
+            twins[face[0].half_face] = HalfFaceId(face[1].half_face);
+            twins[face[1].half_face] = HalfFaceId(face[0].half_face);
+        }
+        rest = rest.subspan(face.size());
+    }
+    return true;
+}
+
+/// Throws for the first face of a sorted bucket that is not manifold.
+void throw_problem(std::span<const FaceRecord> sorted) {
+    auto face = first_face(sorted);
+    while (is_manifold(face)) {
+        sorted = sorted.subspan(face.size());
+        face = first_face(sorted);
+    }
+    if (face.size() > 2)
+        throw Error(ErrorKind::bad_input,
+                    "a face is shared by more than two hexahedra: " +
+                        cells_text({face[0].half_face, face[1].half_face, face[2].half_face}));
+    throw Error(ErrorKind::bad_input,
+                "two hexahedra lie on the same side of their shared face: " +
+                    cells_text({face[0].half_face, face[1].half_face}),
+                {}, "one of them is repeated or inside out");
+}
+
 std::vector<HalfFaceId> find_twins(const std::vector<HexCell>& cells, std::size_t vertex_count) {
     const std::size_t count = 6 * cells.size();
     const auto corner_of = [&](std::size_t h, std::size_t i) {
@@ -76,32 +125,17 @@ std::vector<HalfFaceId> find_twins(const std::vector<HexCell>& cells, std::size_
     }
 
     std::vector<HalfFaceId> twins(count);
+    std::atomic<std::size_t> first_problem = vertex_count;
     parallel_for(vertex_count, [&](std::size_t v) {
-        const auto begin = records.begin() + offsets[v];
-        const auto end = records.begin() + offsets[v + 1];
-        std::sort(begin, end, [](const FaceRecord& a, const FaceRecord& b) {
-            const auto ka = a.key(), kb = b.key();
-            return ka != kb ? ka < kb : a.half_face < b.half_face;
-        });
-        for (auto a = begin; a != end;) {
-            auto b = a + 1;
-            while (b != end && b->key() == a->key()) ++b;
-            if (b - a > 2)
-                throw Error(ErrorKind::bad_input,
-                            "a face is shared by more than two hexahedra: " +
-                                cells_text({a[0].half_face, a[1].half_face, a[2].half_face}));
-            if (b - a == 2) {
-                if (a[0].rest[0] == a[1].rest[0])
-                    throw Error(ErrorKind::bad_input,
-                                "two hexahedra lie on the same side of their shared face: " +
-                                    cells_text({a[0].half_face, a[1].half_face}),
-                                {}, "one of them is repeated or inside out");
-                twins[a[0].half_face] = HalfFaceId(a[1].half_face);
-                twins[a[1].half_face] = HalfFaceId(a[0].half_face);
-            }
-            a = b;
+        const std::span bucket(records.data() + offsets[v], records.data() + offsets[v + 1]);
+        if (match_bucket(bucket, twins)) return;
+        std::size_t smallest_so_far = first_problem;
+        while (v < smallest_so_far && !first_problem.compare_exchange_weak(smallest_so_far, v)) {
         }
     });
+    // Reported here and not where it is found, so that the message does not depend on the threads.
+    if (const std::size_t v = first_problem; v < vertex_count)
+        throw_problem({records.data() + offsets[v], records.data() + offsets[v + 1]});
     return twins;
 }
 
