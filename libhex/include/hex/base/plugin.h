@@ -1,0 +1,39 @@
+/// \file plugin.h
+/// Entry point of a plug-in: a shared library that adds methods to the registries of the stages.
+///
+///     #include <hex/base/plugin.h>
+///     #include <hex/segment/segment.h>
+///
+///     class MySegmenter : public hex::Segmenter { ... };
+///
+///     static void register_methods() {
+///         hex::segmenters().add("mine", "what it does in one line", [] { return
+///         std::make_unique<MySegmenter>(); });
+///     }
+///     HEX_PLUGIN("my-plugin", "1.0", register_methods)
+///
+/// Loaded with `--plugin my-plugin.so` or from the folders of HEXSPLINE_PLUGIN_PATH.
+#pragma once
+
+#include <hex/base/version.h>
+
+namespace hex {
+
+/// What a plug-in tells the program about itself. Plain data, so that a wrong version can be seen before any
+/// code of the plug-in runs.
+struct PluginInfo {
+    int interface_version;       ///< hex::plugin_interface_version it was compiled against
+    const char* name;            ///< of the plug-in, for messages
+    const char* version;         ///< of the plug-in
+    void (*register_methods)();  ///< adds its methods to the registries; may throw hex::Error
+};
+
+/// Name of the exported symbol of type PluginInfo.
+inline constexpr const char* plugin_symbol = "hexspline_plugin";
+
+}  // namespace hex
+
+#define HEX_PLUGIN(name, version, function)                                                            \
+    extern "C" __attribute__((visibility("default"))) const hex::PluginInfo hexspline_plugin;          \
+    extern "C" const hex::PluginInfo hexspline_plugin = {hex::plugin_interface_version, name, version, \
+                                                         function};

@@ -1,0 +1,146 @@
+#include "hexspline/console.h"
+
+#include <hex/base/error.h>
+
+#include <pthread.h>
+#include <signal.h>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+#include <tbb/global_control.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdio>
+#include <optional>
+#include <thread>
+
+namespace cli {
+namespace {
+
+std::stop_source& interrupt() {
+    static std::stop_source source;
+    return source;
+}
+
+spdlog::level::level_enum spdlog_level(hex::LogLevel level) {
+    switch (level) {
+        case hex::LogLevel::trace:
+            return spdlog::level::trace;
+        case hex::LogLevel::debug:
+            return spdlog::level::debug;
+        case hex::LogLevel::info:
+            return spdlog::level::info;
+        case hex::LogLevel::warn:
+            return spdlog::level::warn;
+        case hex::LogLevel::error:
+            return spdlog::level::err;
+    }
+    return spdlog::level::info;
+}
+
+spdlog::level::level_enum threshold(const ConsoleOptions& options) {
+    if (options.level.empty()) {
+        if (options.quiet) return spdlog::level::err;
+        return options.verbose ? spdlog::level::info : spdlog::level::warn;
+    }
+    for (const auto& [name, level] :
+         {std::pair("trace", spdlog::level::trace), std::pair("debug", spdlog::level::debug),
+          std::pair("info", spdlog::level::info), std::pair("warn", spdlog::level::warn),
+          std::pair("error", spdlog::level::err)}) {
+        if (options.level == name) return level;
+    }
+    throw hex::Error(hex::ErrorKind::usage, "unknown log level '" + options.level + "'", {},
+                     "use trace, debug, info, warn or error");
+}
+
+/// One line on a terminal, redrawn at most ten times a second.
+class ProgressBar {
+  public:
+    explicit ProgressBar(std::string command) : command_(std::move(command)) {}
+    void show(std::string_view step, double share) {
+        const auto now = std::chrono::steady_clock::now();
+        if (shown_ && now - last_ < std::chrono::milliseconds(100)) return;
+        last_ = now;
+        shown_ = true;
+        constexpr int width = 30;
+        const int filled = static_cast<int>(share * width);
+        std::string bar(width, ' ');
+        for (int i = 0; i < filled && i < width; ++i) bar[static_cast<std::size_t>(i)] = '#';
+        std::fprintf(stderr, "\r\033[K%s: %.*s [%s] %3d%%", command_.c_str(), static_cast<int>(step.size()),
+                     step.data(), bar.c_str(), static_cast<int>(100 * share));
+        std::fflush(stderr);
+    }
+    void clear() {
+        if (shown_) std::fputs("\r\033[K", stderr);
+        shown_ = false;
+    }
+
+  private:
+    std::string command_;
+    std::chrono::steady_clock::time_point last_;
+    bool shown_ = false;
+};
+
+}  // namespace
+
+void watch_interrupts() {
+    sigset_t signals;
+    sigemptyset(&signals);
+    sigaddset(&signals, SIGINT);
+    sigaddset(&signals, SIGTERM);
+    pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+    // All threads inherit the mask; this one alone takes the signals, in ordinary code instead of a signal
+    // handler.
+    std::thread([signals] {
+        int number = 0;
+        sigwait(&signals, &number);
+        interrupt().request_stop();
+        sigwait(&signals, &number);
+        _exit(130);
+    }).detach();
+    signal(SIGPIPE, SIG_IGN);
+}
+
+struct Console::State {
+    std::shared_ptr<spdlog::logger> logger;
+    std::optional<ProgressBar> progress;
+    std::optional<tbb::global_control> thread_limit;
+    hex::Context context;
+};
+
+Console::Console(const ConsoleOptions& options) : state_(std::make_unique<State>()) {
+    const auto level = threshold(options);
+    state_->logger =
+        std::make_shared<spdlog::logger>(options.command, std::make_shared<spdlog::sinks::stderr_sink_mt>());
+    state_->logger->set_pattern("hexspline %n: %l: %v");
+    state_->logger->set_level(level);
+    if (options.threads > 0)
+        state_->thread_limit.emplace(tbb::global_control::max_allowed_parallelism,
+                                     static_cast<std::size_t>(options.threads));
+
+    hex::Context& context = state_->context;
+    context.threads = options.threads;
+    context.stop = interrupt().get_token();
+    context.on_log = [this](hex::LogLevel l, std::string_view message) { log(l, message); };
+    if (isatty(STDERR_FILENO) && !options.quiet) {
+        state_->progress.emplace(options.command);
+        context.on_progress = [this](std::string_view step, double share) {
+            state_->progress->show(step, share);
+        };
+    }
+}
+
+Console::~Console() {
+    if (state_->progress) state_->progress->clear();
+}
+
+const hex::Context& Console::context() const {
+    return state_->context;
+}
+
+void Console::log(hex::LogLevel level, std::string_view message) const {
+    if (state_->progress) state_->progress->clear();
+    state_->logger->log(spdlog_level(level), "{}", message);
+}
+
+}  // namespace cli

@@ -1,0 +1,75 @@
+/// The binary: finds the subcommand, runs it, and turns exceptions into one line and an exit code
+/// (docs/cli.md).
+
+#include "hexspline/command.h"
+#include "hexspline/console.h"
+
+#include <hex/base/error.h>
+#include <hex/base/version.h>
+
+#include <cstdio>
+#include <iostream>
+#include <new>
+
+namespace {
+
+void print_help(std::ostream& out) {
+    out << "hexspline " << hex::version << ": from the boundary of a solid to a volumetric spline\n\n"
+        << "Usage: hexspline SUBCOMMAND [options]     (hexspline SUBCOMMAND --help tells more)\n\n";
+    for (const auto& command : cli::commands())
+        out << "  " << command.name << std::string(12 - command.name.size(), ' ') << command.summary << '\n';
+    out << "\n  -h, --help    this text\n      --version the version\n";
+}
+
+int run_command(const cli::Command& command, const std::vector<std::string>& arguments) {
+    cli::CommandLine line(command);
+    command.describe(line);
+    return line.parse(arguments) ? command.run(line) : 0;
+}
+
+int report(const std::string& command, const std::string& message, int code) {
+    std::cerr << "hexspline" << (command.empty() ? "" : " " + command) << ": error: " << message << '\n';
+    return code;
+}
+
+int dispatch(const std::vector<std::string>& arguments) {
+    if (arguments.empty()) {
+        print_help(std::cerr);
+        return 2;
+    }
+    const std::string& name = arguments.front();
+    if (name == "-h" || name == "--help" || name == "help") {
+        print_help(std::cout);
+        return 0;
+    }
+    if (name == "--version") {
+        std::cout << "hexspline " << hex::version << '\n';
+        return 0;
+    }
+    for (const auto& command : cli::commands()) {
+        if (command.name != name) continue;
+        try {
+            return run_command(command, {arguments.begin() + 1, arguments.end()});
+        } catch (const hex::Error& error) {
+            return report(name, error.what(), hex::exit_code(error.kind()));
+        } catch (const std::bad_alloc&) {
+            return report(name, "out of memory", hex::exit_code(hex::ErrorKind::output));
+        } catch (const std::exception& problem) {
+            return report(name, std::string("internal error: ") + problem.what(),
+                          hex::exit_code(hex::ErrorKind::no_result));
+        }
+    }
+    return report("", "unknown subcommand '" + name + "'; see hexspline --help", 2);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    cli::watch_interrupts();
+    const int code = dispatch({argv + 1, argv + argc});
+    std::cout.flush();
+    // A result that could not be printed is a result that was not delivered.
+    if (code == 0 && !std::cout)
+        return report("", "stdout cannot be written", hex::exit_code(hex::ErrorKind::output));
+    return code;
+}

@@ -1,0 +1,95 @@
+#include "hexspline/plugin_loader.h"
+
+#include <hex/base/error.h>
+#include <hex/base/plugin.h>
+#include <hex/base/registry.h>
+
+#include <boost/dll/shared_library.hpp>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <sstream>
+
+namespace cli {
+namespace {
+
+[[noreturn]] void reject(const std::string& file, const std::string& what, const std::string& advice = {}) {
+    throw hex::Error(hex::ErrorKind::bad_input, what, file, advice);
+}
+
+/// Methods keep pointers to code of the library, so libraries are never unloaded.
+std::vector<boost::dll::shared_library>& loaded_libraries() {
+    static auto* libraries = new std::vector<boost::dll::shared_library>();
+    return *libraries;
+}
+
+/// Names the origin of what registers during its life.
+class OriginGuard {
+  public:
+    explicit OriginGuard(const std::string& origin) : before_(hex::registration_origin()) {
+        hex::registration_origin() = origin;
+    }
+    ~OriginGuard() { hex::registration_origin() = before_; }
+    OriginGuard(const OriginGuard&) = delete;
+    OriginGuard& operator=(const OriginGuard&) = delete;
+
+  private:
+    std::string before_;
+};
+
+void load_plugin(const std::string& file) {
+    if (!std::filesystem::exists(file)) reject(file, "there is no such plug-in");
+    const OriginGuard origin(file);
+    boost::dll::shared_library library;
+    try {
+        library.load(std::filesystem::absolute(file).string(), boost::dll::load_mode::rtld_now);
+    } catch (const std::exception& problem) {
+        reject(file, std::string("cannot be loaded as a plug-in: ") + problem.what());
+    }
+    if (!library.has(hex::plugin_symbol))
+        reject(file, "is no hexspline plug-in: it does not export '" + std::string(hex::plugin_symbol) + "'",
+               "use the macro HEX_PLUGIN");
+    const auto& info = library.get<const hex::PluginInfo>(hex::plugin_symbol);
+    if (info.interface_version != hex::plugin_interface_version)
+        reject(file,
+               "was built for plug-in interface " + std::to_string(info.interface_version) +
+                   ", this program has " + std::to_string(hex::plugin_interface_version),
+               "build it again");
+    if (info.register_methods == nullptr) reject(file, "registers nothing");
+    try {
+        info.register_methods();
+    } catch (const std::exception& problem) {
+        reject(file, std::string("failed to register its methods: ") + problem.what());
+    } catch (...) {
+        reject(file, "failed to register its methods");
+    }
+    loaded_libraries().push_back(std::move(library));
+}
+
+std::vector<std::string> plugins_of_path() {
+    std::vector<std::string> files;
+    const char* path = std::getenv("HEXSPLINE_PLUGIN_PATH");
+    std::istringstream folders(path == nullptr ? "" : path);
+    for (std::string folder; std::getline(folders, folder, ':');) {
+        if (folder.empty()) continue;
+        std::error_code problem;
+        std::vector<std::string> in_folder;
+        for (const auto& entry : std::filesystem::directory_iterator(folder, problem)) {
+            if (entry.path().extension() == ".so") in_folder.push_back(entry.path().string());
+        }
+        if (problem) reject(folder, "HEXSPLINE_PLUGIN_PATH names a folder that cannot be read");
+        std::sort(in_folder.begin(), in_folder.end());
+        files.insert(files.end(), in_folder.begin(), in_folder.end());
+    }
+    return files;
+}
+
+}  // namespace
+
+void load_plugins(const std::vector<std::string>& files) {
+    for (const auto& file : plugins_of_path()) load_plugin(file);
+    for (const auto& file : files) load_plugin(file);
+}
+
+}  // namespace cli
