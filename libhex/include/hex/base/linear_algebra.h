@@ -3,6 +3,9 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <limits>
 
 namespace hex {
 
