@@ -29,7 +29,10 @@ struct FeatureSet {
 FeatureSet no_features(const HexMesh& mesh, const EdgeTable& edges, const BoundaryQuads& boundary);
 
 /// A boundary edge is sharp when the unit outward normals of its two boundary quads have a dot product below
-/// `cosine` (0.8, about 37 degrees, by default in the paper). Range of `cosine`: [-1, 1].
+/// `cosine` (0.8, about 37 degrees, by default in the paper). The normal of a quad is the direction of the
+/// cross product of its diagonals, that is of its vector area: a warped quad has one normal whichever corner
+/// is looked at. Edges of a quad without area are not sharp (it has no direction); an edge with more than two
+/// boundary quads always is. Throws Error{usage} unless `cosine` is in [-1, 1].
 FeatureSet features_by_angle(const HexMesh& mesh, const EdgeTable& edges, const BoundaryQuads& boundary,
                              double cosine);
 

@@ -9,19 +9,22 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace hex {
 
-/// In [-1, 1]; 1 for a cuboid, <= 0 for an inverted element. 0 when an edge has no length (Verdict leaves
-/// that undefined).
+/// The smallest of nine numbers det(a,b,c) / (|a||b||c|): for the three edges at each corner, and for the
+/// three principal axes (the derivatives of the trilinear map) at the centre. In [-1, 1]; 1 for a cuboid,
+/// <= 0 for an inverted element. A corner with an edge of no length counts as 0 (Verdict leaves that
+/// undefined).
 double scaled_jacobian(const std::array<Vec3, 8>& corners);
 double scaled_jacobian(const HexMesh& mesh, CellId cell);
 
 /// At one corner only: det(e1,e2,e3) / (|e1||e2||e3|).
 double corner_scaled_jacobian(const std::array<Vec3, 8>& corners, int corner);
 
-/// Of every cell, in cell order.
+/// Of every cell, in cell order. The same bits as scaled_jacobian of each.
 std::vector<double> scaled_jacobians(const HexMesh& mesh, const Context& context = {});
 
 /// What a person wants to know of a mesh.
@@ -30,11 +33,15 @@ struct QualitySummary {
     std::size_t cells = 0;
     double min = 0.0;
     double mean = 0.0;
-    CellId worst;
+    CellId worst;                             ///< the first cell that has the value `min`
     std::size_t inverted = 0;                 ///< cells with a scaled Jacobian <= 0
     std::array<std::size_t, 20> histogram{};  ///< counts in equal bins over [-1, 1]
 };
 
+/// All zero, and no worst cell, for a mesh without cells.
 QualitySummary summarize(const HexMesh& mesh, const Context& context = {});
+/// The same from values that are known already, one a cell.
+QualitySummary summarize(const HexMesh& mesh, std::span<const double> scaled_jacobians,
+                         const Context& context = {});
 
 }  // namespace hex
