@@ -119,7 +119,7 @@ INSTANTIATE_TEST_SUITE_P(Paper, PublishedLayouts,
                          testing::Values(Published{"rod", 62, 60}, Published{"mount1", 164, 158},
                                          Published{"hepta", 144, 146}, Published{"ant", 174, 176},
                                          Published{"fertility", 114, 108}, Published{"joint", 168, 168}),
-                         [](const auto& info) { return std::string(info.param.model); });
+                         [](const auto& instance) { return std::string(instance.param.model); });
 
 }  // namespace
 }  // namespace hex

@@ -41,10 +41,16 @@ TriangleMesh triangulate(const PolyMesh& mesh) {
         has_polygons = has_polygons || split.valence(f) != 3;
     }
     if (has_polygons) {
+        // CGAL replaces a face by removing it first; OpenMesh can only mark what is removed.
+        split.request_vertex_status();
+        split.request_edge_status();
+        split.request_halfedge_status();
+        split.request_face_status();
         namespace PMP = CGAL::Polygon_mesh_processing;
         PMP::triangulate_faces(split, PMP::parameters::vertex_point_map(vertex_point_map(split))
                                           .geom_traits(CgalKernel())
                                           .visitor(SourceKeeper(split)));
+        split.garbage_collection();
     }
 
     // Triangles of one polygon together, polygons in their order: counting by source.
