@@ -24,24 +24,31 @@ struct MapOptions {
     double snap_warning = 1e-3;
 };
 
+/// The largest MapOptions::level.
+inline constexpr int largest_map_level = 7;
+
 /// How one patch was mapped.
 struct PatchMapRecord {
-    int patch = 0;
-    std::string weights;      ///< "discrete-conformal", or "mean-value" when that had flipped triangles
-    std::size_t flipped = 0;  ///< flipped parametric triangles in the map that is used
+    int patch = 0;                ///< 0-based, in the order of find_patches
+    int part = 0;                 ///< part id of its triangles
+    std::string weights;          ///< "discrete-conformal", "mean-value" when that had flipped triangles,
+                                  ///< "uniform" when both had
+    std::size_t flipped = 0;      ///< flipped parametric triangles in the map that is used
+    std::size_t split_edges = 0;  ///< edges cut because both ends lie on one side (patch_map.h)
 };
 
 struct MapReport {
     std::size_t patches = 0;
     std::size_t blocks = 0;
-    double largest_snap =
-        0.0;  ///< distance between a block corner and its surface corner, in units of the diagonal
+    /// Distance between a block corner and its surface corner, in units of the diagonal.
+    double largest_snap = 0.0;
     std::vector<PatchMapRecord> patch_maps;
+    /// Warnings `far-corner` (block vertices) and `flipped-patch` (patches).
     Diagnostics diagnostics;
 };
 
 struct MapResult {
-    HexMesh mesh;  ///< part of a cell = index of its block + 1
+    HexMesh mesh;  ///< part of a cell = index of its block + 1; no unused vertices
     MapReport report;
 };
 
@@ -54,9 +61,15 @@ class Mapper {
 
 Registry<Mapper>& mappers();
 
-/// Runs `options.method`. Throws Error{bad_input} with patch, block and vertex ids when patches are not
-/// four-sided, two block corners meet one surface corner, or a boundary quad has no patch; Error{usage} for a
-/// level out of range.
+/// Runs `options.method`. The result of the built-in method `transfinite` is conforming by construction, and
+/// its boundary vertices lie on the triangles of the surface; that its elements are not inverted is not
+/// promised (stage `improve` is for that). It is unchanged by rotations, translations and scalings but for
+/// rounding.
+///
+/// Throws Error{bad_input} with patch, block and vertex ids when patches are not four-sided, two block
+/// corners meet one surface corner, or boundary quads and patches do not pair (block_match.h); Error{usage}
+/// for a level out of range or an unknown method; Error{unsupported} for more elements than 32-bit ids can
+/// name.
 MapResult map(const TriangleMesh& surface, const HexMesh& blocks, const MapOptions& options = {},
               const Context& context = {});
 
