@@ -22,8 +22,11 @@ struct Segmentation {
 
 /// "+X", "-X", ... of a label.
 const char* label_name(int label);
-/// The unit vector of a label.
+/// The unit vector of a label 0..5.
 Vec3 label_axis(int label);
+
+/// Throws Error{bad_input} unless there is one label 0..5 for each of so many triangles.
+void require_labels(const Segmentation& segmentation, std::size_t triangles);
 
 /// One label set by hand.
 struct ManualLabel {
@@ -54,10 +57,15 @@ struct SegmentReport {
     std::string method;
     std::array<std::size_t, 6> label_counts{};
     std::vector<SweepRecord> sweeps;
+    /// Unit generators of the six labels after the last sweep; the axes for methods that have none.
+    std::array<Vec3, 6> generators = {label_axis(0), label_axis(1), label_axis(2),
+                                      label_axis(3), label_axis(4), label_axis(5)};
     std::size_t manual_changes = 0;  ///< triangles whose label the manual list changed
-    /// Violations of the paper's conditions on a polycube segmentation: opposite labels that share an edge,
-    /// corners where fewer or more than the allowed labels meet, charts with fewer than four corners, ...
-    /// each with its triangle or vertex ids.
+    std::size_t charts = 0;          ///< connected regions of equal label
+    std::size_t boundaries = 0;      ///< maximal runs of edges between two charts
+    std::size_t corners = 0;         ///< vertices where at least three boundaries end
+    /// Violations of the paper's three conditions, as validate_charts (charts.h) tells them, each with its
+    /// triangle or vertex ids.
     Diagnostics violations;
 };
 
@@ -86,7 +94,8 @@ SegmentResult segment(const TriangleMesh& mesh, const SegmentOptions& options = 
 /// The mesh with `part = label + 1` on each face: what `segment` writes.
 TriangleMesh with_labels(TriangleMesh mesh, const Segmentation& segmentation);
 
-/// Checks the paper's conditions for any labelling.
+/// The paper's three conditions for any labelling: validate_charts (charts.h) of its charts. Throws
+/// Error{bad_input} when there is not one label 0..5 for each triangle.
 Diagnostics validate_segmentation(const TriangleMesh& mesh, const Segmentation& segmentation);
 
 }  // namespace hex

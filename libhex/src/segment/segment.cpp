@@ -1,0 +1,95 @@
+#include <hex/base/error.h>
+#include <hex/base/parallel.h>
+#include <hex/segment/charts.h>
+#include <hex/segment/segment.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace hex {
+namespace {
+
+void apply_manual(const SegmentOptions& options, SegmentResult& result) {
+    auto& labels = result.segmentation.labels;
+    const auto before = labels;
+    for (std::size_t i = 0; i < options.manual.size(); ++i) {
+        const ManualLabel& manual = options.manual[i];
+        const std::string where = "manual label " + std::to_string(i + 1);
+        if (manual.triangle < 0 || manual.triangle >= static_cast<std::int64_t>(labels.size()))
+            throw Error(ErrorKind::bad_input,
+                        "triangle " + std::to_string(manual.triangle) + " is not one of 0.." +
+                            std::to_string(static_cast<std::int64_t>(labels.size()) - 1),
+                        where, "indices count from 0");
+        if (manual.label < 0 || manual.label > 5)
+            throw Error(ErrorKind::bad_input, "label " + std::to_string(manual.label) + " is not one of 0..5",
+                        where, "labels 0..5 are +X -X +Y -Y +Z -Z");
+        labels[static_cast<std::size_t>(manual.triangle)] = manual.label;
+    }
+    for (std::size_t t = 0; t < labels.size(); ++t) {
+        if (labels[t] != before[t]) ++result.report.manual_changes;
+    }
+}
+
+}  // namespace
+
+const char* label_name(int label) {
+    static constexpr std::array names = {"+X", "-X", "+Y", "-Y", "+Z", "-Z"};
+    return label >= 0 && label < 6 ? names[static_cast<std::size_t>(label)] : "none";
+}
+
+Vec3 label_axis(int label) {
+    Vec3 axis = Vec3::Zero();
+    axis[label / 2] = label % 2 == 0 ? 1.0 : -1.0;
+    return axis;
+}
+
+void require_labels(const Segmentation& segmentation, std::size_t triangles) {
+    const auto& labels = segmentation.labels;
+    if (labels.size() != triangles)
+        throw Error(ErrorKind::bad_input, std::to_string(labels.size()) + " labels for " +
+                                              std::to_string(triangles) + " triangles");
+    const auto odd = std::find_if(labels.begin(), labels.end(), [](int l) { return l < 0 || l > 5; });
+    if (odd != labels.end())
+        throw Error(ErrorKind::bad_input, "label " + std::to_string(*odd) + " is not one of 0..5",
+                    "triangle " + std::to_string(odd - labels.begin()));
+}
+
+Registry<Segmenter>& segmenters() {
+    static Registry<Segmenter> registry("segment");
+    return registry;
+}
+
+SegmentResult segment(const TriangleMesh& mesh, const SegmentOptions& options, const Context& context) {
+    if (!(options.boundary_weight >= 0.0) || !std::isfinite(options.boundary_weight))
+        throw Error(ErrorKind::usage, "the weight of the boundary-enhanced term must be a number >= 0");
+    const auto method = segmenters().make(options.method);
+    if (mesh.n_faces() == 0) throw Error(ErrorKind::bad_input, "the surface has no triangles");
+    return with_threads(context, [&] {
+        SegmentResult result = method->segment(mesh, options, context);
+        result.report.method = options.method;
+        require_labels(result.segmentation, mesh.n_faces());
+        apply_manual(options, result);
+        for (const int label : result.segmentation.labels)
+            ++result.report.label_counts[static_cast<std::size_t>(label)];
+        const LabelCharts charts = find_charts(mesh, result.segmentation);
+        result.report.charts = charts.charts.size();
+        result.report.boundaries = charts.boundaries.size();
+        result.report.corners = charts.corners.size();
+        result.report.violations = validate_charts(charts);
+        return result;
+    });
+}
+
+TriangleMesh with_labels(TriangleMesh mesh, const Segmentation& segmentation) {
+    require_labels(segmentation, mesh.n_faces());
+    for (const auto f : mesh.faces())
+        mesh.data(f).part = segmentation.labels[static_cast<std::size_t>(f.idx())] + 1;
+    return mesh;
+}
+
+Diagnostics validate_segmentation(const TriangleMesh& mesh, const Segmentation& segmentation) {
+    return validate_charts(find_charts(mesh, segmentation));
+}
+
+}  // namespace hex
