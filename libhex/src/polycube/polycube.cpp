@@ -17,6 +17,7 @@ PolycubeResult polycube(const TriangleMesh& mesh, const PolycubeOptions& options
     if (mesh.n_faces() == 0) throw Error(ErrorKind::bad_input, "the surface has no triangles");
     return with_threads(context, [&] {
         PolycubeResult result = method->build(mesh, options, context);
+        result.report.method = options.method;
         const auto& patches = result.polycube.layout.patches;
         result.report.patches = patches.size();
         result.report.corners = result.polycube.corners.size();

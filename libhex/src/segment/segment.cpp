@@ -15,15 +15,17 @@ void apply_manual(const SegmentOptions& options, SegmentResult& result) {
     const auto before = labels;
     for (std::size_t i = 0; i < options.manual.size(); ++i) {
         const ManualLabel& manual = options.manual[i];
-        const std::string where = "manual label " + std::to_string(i + 1);
+        const std::string where =
+            manual.place.empty() ? "manual label " + std::to_string(i + 1) : manual.place;
         if (manual.triangle < 0 || manual.triangle >= static_cast<std::int64_t>(labels.size()))
             throw Error(ErrorKind::bad_input,
                         "triangle " + std::to_string(manual.triangle) + " is not one of 0.." +
                             std::to_string(static_cast<std::int64_t>(labels.size()) - 1),
-                        where, "indices count from 0");
+                        where, "check whether the list counts from 0 or from 1");
         if (manual.label < 0 || manual.label > 5)
             throw Error(ErrorKind::bad_input, "label " + std::to_string(manual.label) + " is not one of 0..5",
-                        where, "labels 0..5 are +X -X +Y -Y +Z -Z");
+                        where,
+                        "labels 0..5 are +X -X +Y -Y +Z -Z; check whether the list counts from 0 or from 1");
         labels[static_cast<std::size_t>(manual.triangle)] = manual.label;
     }
     for (std::size_t t = 0; t < labels.size(); ++t) {

@@ -33,11 +33,15 @@ struct PolycubeOptions {
 };
 
 struct PolycubeReport {
+    std::string method;
     std::size_t patches = 0;
     std::size_t corners = 0;
     std::size_t invalid_patches = 0;
-    /// Every patch that is not a four-cornered disk, and every forbidden neighbourhood, with patch and vertex
-    /// ids.
+    /// Severity error, entity "patch", vertex ids in the message: what diagnose_layout (patch_layout.h)
+    /// finds, and forbidden neighbourhoods: `opposite-labels-adjacent` (asked only when the part ids are
+    /// labels: all in 1..6, and every patch faces the way of its label), `patches-share-all-corners` (two
+    /// patches on the same four corners) and `edge-not-unique` (different chains between the same two
+    /// corners); block faces and edges are known by their corners and could not tell these apart.
     Diagnostics violations;
 };
 

@@ -32,6 +32,7 @@ void require_labels(const Segmentation& segmentation, std::size_t triangles);
 struct ManualLabel {
     std::int64_t triangle = 0;  ///< 0-based index of the triangle
     int label = 0;              ///< 0..5
+    std::string place = {};     ///< where it was set (file:line), for messages; may be empty
 };
 
 struct SegmentOptions {
@@ -90,6 +91,12 @@ Registry<Segmenter>& segmenters();
 /// Error{bad_input} for manual labels out of range.
 SegmentResult segment(const TriangleMesh& mesh, const SegmentOptions& options = {},
                       const Context& context = {});
+
+/// Takes the part ids of the mesh as a person's patches (components of equal part id): labels each patch
+/// with the axis nearest to its vector area and tells what is wrong with the patches: diagnose_layout
+/// (patch_layout.h), and as a warning where patches that face opposite ways share a boundary. In the report
+/// `charts` counts patches, and `corners` are vertices where at least three patches meet.
+SegmentResult segment_from_patches(const TriangleMesh& mesh);
 
 /// The mesh with `part = label + 1` on each face: what `segment` writes.
 TriangleMesh with_labels(TriangleMesh mesh, const Segmentation& segmentation);

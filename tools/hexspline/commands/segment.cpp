@@ -1,0 +1,148 @@
+/// Sample runs:
+///   hexspline segment -i part.stl -o part_segment.k
+///   hexspline segment -i rod_tri.k -o rod_initial_write.k -m rod_manual.txt -l 0.1
+///   hexspline segment -i part_patches.k -o part_checked.k --from-patches --require
+
+#include "hexspline/command.h"
+#include "hexspline/inputs.h"
+
+#include <hex/base/error.h>
+#include <hex/io/list_file.h>
+#include <hex/io/surface_file.h>
+#include <hex/segment/segment.h>
+
+#include <algorithm>
+#include <map>
+
+namespace cli {
+namespace {
+
+void describe(CommandLine& line) {
+    line.add_input("closed triangle surface; polygons are triangulated");
+    line.add_output("labelled triangles, part id = label + 1");
+    line.add("manual,m", value<std::string>(), "labels set by hand: lines `triangle label`, applied last");
+    line.add("manual-base", value<int>("0|1")->default_value(0), "what the numbers in -m count from");
+    line.add("weight,l", value<double>()->default_value(0.1),
+             "weight of the boundary-enhanced term, >= 0: more for straighter boundaries");
+    line.add("method", value<std::string>("NAME")->default_value("hbecvt"),
+             "hbecvt, cvt, or a plug-in's (hexspline plugins)");
+    line.add("labels", value<std::string>(), "write one label 0..5 = +X -X +Y -Y +Z -Z per triangle as text");
+    line.add_switch("from-patches", "the part ids of -i are patches made by hand: keep and check them");
+    line.add_switch("require", "exit with 1 when a condition on a polycube segmentation is violated");
+}
+
+hex::SegmentOptions options_of(const CommandLine& line) {
+    hex::SegmentOptions options;
+    options.method = line.get<std::string>("method");
+    options.boundary_weight = line.get<double>("weight");
+    const int base = line.get<int>("manual-base");
+    line.require_range("manual-base", base, 0, 1);
+    if (!line.given("manual")) return options;
+    const auto file = line.get<std::string>("manual");
+    for (const auto& entry : hex::io::read_overrides(file, base))
+        options.manual.push_back({entry.triangle, entry.label, file + ":" + std::to_string(entry.line)});
+    return options;
+}
+
+void require_no_labelling_options(const CommandLine& line) {
+    for (const char* name : {"manual", "manual-base", "weight", "method"}) {
+        if (line.given(name))
+            throw hex::Error(hex::ErrorKind::usage,
+                             std::string("--") + name + " has no meaning with --from-patches", {},
+                             "leave one of them out");
+    }
+}
+
+Json report_of(const hex::SegmentReport& report, const hex::SegmentOptions& options) {
+    Json counts = Json::object();
+    for (int label = 0; label < 6; ++label)
+        counts[hex::label_name(label)] = report.label_counts[static_cast<std::size_t>(label)];
+    Json generators = Json::array();
+    for (const auto& g : report.generators) generators.push_back({g.x(), g.y(), g.z()});
+    Json sweeps = Json::array();
+    for (const auto& sweep : report.sweeps)
+        sweeps.push_back({{"phase", sweep.phase},
+                          {"sweep", sweep.sweep},
+                          {"moves", sweep.moves},
+                          {"energy", sweep.energy}});
+    return {{"method", report.method},
+            {"weight", options.boundary_weight},
+            {"label_counts", counts},
+            {"charts", report.charts},
+            {"boundaries", report.boundaries},
+            {"corners", report.corners},
+            {"manual_changes", report.manual_changes},
+            {"generators", generators},
+            {"sweeps", sweeps},
+            {"violations", to_json(report.violations)}};
+}
+
+/// One warning for each kind of violation; every single one with -v.
+void tell_violations(const CommandLine& line, const hex::Diagnostics& violations) {
+    struct Kind {
+        std::size_t count = 0;
+        std::string first;
+    };
+    std::map<std::string, Kind> kinds;
+    for (const auto& violation : violations) {
+        line.info(violation.message);
+        if (violation.severity == hex::Severity::note) continue;
+        Kind& kind = kinds[violation.code];
+        if (kind.count++ == 0) kind.first = violation.message;
+    }
+    for (const auto& [code, kind] : kinds)
+        line.warn(std::to_string(kind.count) + " " + code + ", the first: " + kind.first);
+}
+
+void tell_summary(const CommandLine& line, const hex::SegmentReport& report) {
+    for (const auto& sweep : report.sweeps)
+        line.info(sweep.phase + " sweep " + std::to_string(sweep.sweep) + ": " + std::to_string(sweep.moves) +
+                  " moves, energy " + std::to_string(sweep.energy));
+    std::string counts;
+    for (int label = 0; label < 6; ++label)
+        counts += std::string(label > 0 ? ", " : "") + hex::label_name(label) + " " +
+                  std::to_string(report.label_counts[static_cast<std::size_t>(label)]);
+    line.info("triangles: " + counts + "; " + std::to_string(report.manual_changes) + " changed by hand");
+    line.info(std::to_string(report.charts) + " charts, " + std::to_string(report.boundaries) +
+              " boundaries, " + std::to_string(report.corners) + " corners");
+}
+
+int run(CommandLine& line) {
+    const bool from_patches = line.is_set("from-patches");
+    if (from_patches) require_no_labelling_options(line);
+    const hex::SegmentOptions options = options_of(line);
+    const hex::TriangleMesh mesh = load_triangles(line, line.input());
+    const hex::SegmentResult result =
+        from_patches ? hex::segment_from_patches(mesh) : hex::segment(mesh, options, line.context());
+
+    const auto labelled = from_patches ? mesh : hex::with_labels(mesh, result.segmentation);
+    hex::io::write_surface(line.output(), hex::to_soup(labelled));
+    if (line.given("labels"))
+        hex::io::write_labels(line.get<std::string>("labels"), result.segmentation.labels);
+    tell_summary(line, result.report);
+    tell_violations(line, result.report.violations);
+    line.write_report(report_of(result.report, options));
+
+    const auto violated = hex::count_at_least(result.report.violations, hex::Severity::warning);
+    if (line.is_set("require") && violated > 0)
+        throw hex::Error(hex::ErrorKind::quality,
+                         "the segmentation violates " + std::to_string(violated) +
+                             " conditions on a polycube segmentation",
+                         line.input().string(), "see -v or --json for every one with its ids");
+    return 0;
+}
+
+const RegisterCommand registered(
+    {.name = "segment",
+     .order = 10,
+     .summary = "label the triangles of a surface with the six axis directions",
+     .description = "Violations of the conditions that a polycube needs are warnings: raw labels normally\n"
+                    "still have to be cut into four-sided patches.",
+     .sample_runs = {"hexspline segment -i part.stl -o part_segment.k",
+                     "hexspline segment -i rod_tri.k -o rod_initial_write.k -m rod_manual.txt -l 0.1",
+                     "hexspline segment -i part_patches.k -o part_checked.k --from-patches --require"},
+     .describe = describe,
+     .run = run});
+
+}  // namespace
+}  // namespace cli
