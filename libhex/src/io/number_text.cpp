@@ -1,5 +1,6 @@
 #include <hex/io/number_text.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace hex::io {
@@ -11,11 +12,25 @@ std::string_view without_plus(std::string_view text) {
     return text;
 }
 
-/// from_chars reports overflow and underflow alike; a value that underflows has a negative decimal exponent.
+/// from_chars reports overflow and underflow alike. The decimal exponent of the first significant digit tells
+/// them apart. `text` is a valid number.
 bool underflows(std::string_view text) {
+    long long exponent = 0;
     const auto e = text.find_first_of("eE");
-    return (e != std::string_view::npos && e + 1 < text.size() && text[e + 1] == '-') ||
-           text.starts_with("0.") || text.starts_with("-0.") || text.starts_with(".");
+    if (e != std::string_view::npos) {
+        const std::string_view digits = text.substr(e + 1);
+        // An exponent that is too long for an integer decides alone.
+        const auto value = parse_integer(digits);
+        if (!value || *value < -1'000'000'000 || *value > 1'000'000'000) return digits.front() == '-';
+        exponent = *value;
+    }
+    const std::string_view mantissa = text.substr(0, e);
+    const auto point = static_cast<long long>(std::min(mantissa.find('.'), mantissa.size()));
+    const auto first = mantissa.find_first_of("123456789");
+    if (first == std::string_view::npos) return true;
+    const auto position = static_cast<long long>(first);
+    exponent += position < point ? point - position - 1 : point - position;
+    return exponent < 0;
 }
 
 }  // namespace

@@ -15,8 +15,9 @@ struct SurfaceFile {
     Diagnostics diagnostics;
 };
 
-/// Reads .k .key .vtk .vtp .stl .obj .off .ply .mesh (any case). A file of hexahedra gives Error{bad_input}
-/// that says so. Throws Error{bad_input} with `file:line` (or byte offset for binary formats),
+/// Reads .k .key .vtk .vtu .mesh .stl .obj .off .ply (any case). A file of hexahedra gives Error{bad_input}
+/// that says so. Points that no polygon uses are kept; whether the polygons make a surface is not asked here
+/// (make_poly_mesh does). Throws Error{bad_input} with `file:line` (or byte offset for binary formats),
 /// Error{unsupported} for an unknown extension.
 SurfaceFile read_surface(const std::filesystem::path& path);
 

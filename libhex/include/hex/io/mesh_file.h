@@ -1,0 +1,50 @@
+/// \file mesh_file.h
+/// Files that may hold a surface or a hexahedral mesh, and the table of all formats.
+#pragma once
+
+#include <hex/io/hex_file.h>
+#include <hex/io/surface_file.h>
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+namespace hex::io {
+
+/// A file format: what it is called, and what we read from it and write to it.
+struct FormatInfo {
+    std::string_view name;
+    /// Lower case with the dot; the first is the usual one.
+    std::vector<std::string_view> extensions;
+    bool reads_surfaces = false;
+    bool writes_surfaces = false;
+    bool reads_hexahedra = false;
+    bool writes_hexahedra = false;
+    /// Part ids survive writing and reading.
+    bool part_ids = false;
+    /// Largest polygon that can be written; 0 = any.
+    int most_corners = 0;
+    /// Scalar fields can be written with hexahedra.
+    bool fields = false;
+    /// How numbers are written: "text, exact" or "binary, exact".
+    std::string_view written_as;
+};
+
+/// All formats, in the order of docs/formats.md.
+const std::vector<FormatInfo>& formats();
+
+/// Extensions of the formats for which `flag` is set, separated by blanks, for messages and help:
+/// `extensions_of(&FormatInfo::writes_hexahedra)` is ".k .key .vtk .vtu .mesh".
+std::string extensions_of(bool FormatInfo::*flag);
+
+/// A surface or a hexahedral mesh.
+using MeshFile = std::variant<SurfaceFile, HexFile>;
+
+/// Reads either: a hexahedral mesh when the file holds hexahedra, else a surface. Throws as read_surface and
+/// read_hex_mesh do.
+MeshFile read_mesh_file(const std::filesystem::path& path);
+
+}  // namespace hex::io

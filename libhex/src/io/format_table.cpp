@@ -1,0 +1,256 @@
+// The one table of formats, and the public readers and writers that look into it.
+#include "io/formats.h"
+
+#include <hex/base/error.h>
+#include <hex/io/mesh_file.h>
+#include <hex/io/number_text.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace hex::io {
+namespace {
+
+struct Format {
+    FormatInfo info;
+    MeshData (*read)(const InputFile&);
+    void (*write_surface)(OutputFile&, const PolygonSoup&);
+    void (*write_hexahedra)(OutputFile&, const HexMesh&, const Fields&);
+};
+
+const std::vector<Format>& table() {
+    static const std::vector<Format> formats = [] {
+        // name, extensions, reads/writes surfaces, reads/writes hexahedra, part ids, corners, fields, numbers
+        std::vector<Format> list = {
+            {{"LS-DYNA keyword", {".k", ".key"}, true, true, true, true, true, 4, false, "text, exact"},
+             read_ls_dyna,
+             write_ls_dyna_surface,
+             write_ls_dyna_hexahedra},
+            {{"VTK legacy", {".vtk"}, true, true, true, true, true, 0, true, "text, exact"},
+             read_legacy_vtk,
+             write_legacy_vtk_surface,
+             write_legacy_vtk_hexahedra},
+            {{"VTK XML", {".vtu"}, true, true, true, true, true, 0, true, "binary, exact"},
+             read_vtu,
+             write_vtu_surface,
+             write_vtu_hexahedra},
+            {{"Medit", {".mesh"}, true, true, true, true, true, 4, false, "text, exact"},
+             read_medit,
+             write_medit_surface,
+             write_medit_hexahedra},
+            {{"STL", {".stl"}, true, true, false, false, false, 3, false, "text, exact"},
+             read_stl,
+             write_stl,
+             nullptr},
+            {{"Wavefront OBJ", {".obj"}, true, true, false, false, true, 0, false, "text, exact"},
+             read_obj,
+             write_obj,
+             nullptr},
+            {{"OFF", {".off"}, true, true, false, false, false, 0, false, "text, exact"},
+             read_off,
+             write_off,
+             nullptr},
+            {{"PLY", {".ply"}, true, true, false, false, true, 0, false, "text, exact"},
+             read_ply,
+             write_ply,
+             nullptr},
+        };
+        return list;
+    }();
+    return formats;
+}
+
+const Format* find_format(const std::filesystem::path& path) {
+    const std::string extension = lower_case(path.extension().string());
+    for (const Format& format : table()) {
+        const auto& known = format.info.extensions;
+        if (std::find(known.begin(), known.end(), extension) != known.end()) return &format;
+    }
+    return nullptr;
+}
+
+const Format& format_of(const std::filesystem::path& path, bool FormatInfo::*wanted, const char* purpose) {
+    const Format* format = find_format(path);
+    if (format != nullptr && format->info.*wanted) return *format;
+    const std::string extension = path.extension().string();
+    const std::string what = format != nullptr
+                                 ? "the format " + std::string(format->info.name) + " cannot carry " + purpose
+                             : extension.empty() ? "a file name without extension does not tell its format"
+                                                 : "unknown file extension " + in_quotes(extension);
+    throw Error(ErrorKind::unsupported, what, path.string(),
+                std::string("for ") + purpose + " use one of " + extensions_of(wanted));
+}
+
+/// A file that is missing or a folder is said to be so, even when its extension is unknown as well.
+MeshData read_with(const Format& (*choose)(const std::filesystem::path&), const std::filesystem::path& path) {
+    std::error_code ignored;
+    if (!std::filesystem::is_regular_file(path, ignored)) InputFile{path};
+    const Format& format = choose(path);
+    return format.read(InputFile(path));
+}
+
+std::string plural(std::size_t count, const char* one, const char* many) {
+    return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+SurfaceFile to_surface(MeshData&& data, const std::filesystem::path& path) {
+    if (data.surface.size() == 0) {
+        if (!data.hexahedra.empty())
+            throw Error(
+                ErrorKind::bad_input,
+                "holds " + plural(data.hexahedra.size(), "hexahedron", "hexahedra") + ", not a surface",
+                path.string(), "a surface of triangles or polygons is needed here");
+        throw Error(ErrorKind::bad_input, "holds no polygons", path.string());
+    }
+    if (!data.hexahedra.empty())
+        data.warn("hexahedra-skipped", plural(data.hexahedra.size(), "hexahedron", "hexahedra") + " skipped");
+    return {std::move(data.surface), std::move(data.diagnostics)};
+}
+
+HexFile to_hexahedra(MeshData&& data, const std::filesystem::path& path) {
+    if (data.hexahedra.empty()) {
+        if (data.surface.size() > 0)
+            throw Error(ErrorKind::bad_input,
+                        "holds " + plural(data.surface.size(), "polygon", "polygons") + " and no hexahedra",
+                        path.string(), "a mesh or block structure of hexahedra is needed here");
+        throw Error(ErrorKind::bad_input, "holds no hexahedra", path.string());
+    }
+    // Boundary quadrilaterals beside the hexahedra are the rule in Medit files: worth a note, not a warning.
+    if (data.surface.size() > 0)
+        data.diagnostics.push_back({Severity::note,
+                                    "polygons-skipped",
+                                    plural(data.surface.size(), "polygon", "polygons") + " skipped",
+                                    {},
+                                    {}});
+    HexFile result;
+    try {
+        result.mesh =
+            HexMesh(std::move(data.points()), std::move(data.hexahedra), std::move(data.hexahedron_parts));
+    } catch (const Error& error) {
+        throw error.located(path.string());
+    }
+    result.diagnostics = std::move(data.diagnostics);
+    return result;
+}
+
+const Format& surface_reader(const std::filesystem::path& path) {
+    return format_of(path, &FormatInfo::reads_surfaces, "surfaces");
+}
+const Format& hexahedra_reader(const std::filesystem::path& path) {
+    return format_of(path, &FormatInfo::reads_hexahedra, "hexahedra");
+}
+
+void require_finite(std::span<const Vec3> points, const std::filesystem::path& path) {
+    for (std::size_t v = 0; v < points.size(); ++v) {
+        if (!points[v].allFinite())
+            throw Error(
+                ErrorKind::output,
+                "vertex " + std::to_string(v) + " has a coordinate that is not finite; nothing written",
+                path.string());
+    }
+}
+
+void check_fields(const std::vector<ScalarField>& fields, std::size_t count, const char* entity) {
+    for (const ScalarField& field : fields) {
+        if (field.values.size() != count)
+            throw Error(ErrorKind::usage, "field '" + field.name + "' has " +
+                                              std::to_string(field.values.size()) + " values for " +
+                                              std::to_string(count) + " " + entity);
+    }
+}
+
+}  // namespace
+
+const std::vector<FormatInfo>& formats() {
+    static const std::vector<FormatInfo> infos = [] {
+        std::vector<FormatInfo> list;
+        for (const Format& format : table()) list.push_back(format.info);
+        return list;
+    }();
+    return infos;
+}
+
+std::string extensions_of(bool FormatInfo::*flag) {
+    std::string list;
+    for (const FormatInfo& info : formats()) {
+        if (!(info.*flag)) continue;
+        for (const auto extension : info.extensions) {
+            if (!list.empty()) list += ' ';
+            list += extension;
+        }
+    }
+    return list;
+}
+
+SurfaceFile read_surface(const std::filesystem::path& path) {
+    return to_surface(read_with(surface_reader, path), path);
+}
+
+HexFile read_hex_mesh(const std::filesystem::path& path) {
+    return to_hexahedra(read_with(hexahedra_reader, path), path);
+}
+
+MeshFile read_mesh_file(const std::filesystem::path& path) {
+    MeshData data = read_with(surface_reader, path);
+    if (data.hexahedra.empty()) return to_surface(std::move(data), path);
+    return to_hexahedra(std::move(data), path);
+}
+
+void write_surface(const std::filesystem::path& path, const PolygonSoup& soup) {
+    const Format& format = format_of(path, &FormatInfo::writes_surfaces, "surfaces");
+    require_finite(soup.points, path);
+    try {
+        if (format.info.most_corners > 0)
+            require_polygon_size(soup, static_cast<std::size_t>(format.info.most_corners),
+                                 format.info.name.data());
+        OutputFile out(path);
+        format.write_surface(out, soup);
+        out.commit();
+    } catch (const Error& error) {
+        throw error.located(path.string());
+    }
+}
+
+void write_hex_mesh(const std::filesystem::path& path, const HexMesh& mesh, const Fields& fields) {
+    const Format& format = format_of(path, &FormatInfo::writes_hexahedra, "hexahedra");
+    require_finite(mesh.positions(), path);
+    if (!format.info.fields && (!fields.cell.empty() || !fields.vertex.empty()))
+        throw Error(ErrorKind::unsupported,
+                    "the format " + std::string(format.info.name) + " cannot carry fields", path.string(),
+                    "use one of " + extensions_of(&FormatInfo::fields));
+    check_fields(fields.cell, mesh.cell_count(), "cells");
+    check_fields(fields.vertex, mesh.vertex_count(), "vertices");
+    try {
+        OutputFile out(path);
+        format.write_hexahedra(out, mesh, fields);
+        out.commit();
+    } catch (const Error& error) {
+        throw error.located(path.string());
+    }
+}
+
+bool has_parts(std::span<const int> parts) {
+    return std::any_of(parts.begin(), parts.end(), [](int part) { return part != 1; });
+}
+
+void require_polygon_size(const PolygonSoup& soup, std::size_t most, const char* format) {
+    for (std::size_t f = 0; f < soup.size(); ++f) {
+        const std::size_t corners = soup.offsets[f + 1] - soup.offsets[f];
+        if (corners > most)
+            throw Error(ErrorKind::unsupported,
+                        "polygon " + std::to_string(f) + " has " + std::to_string(corners) +
+                            " corners, and " + format + " carries no more than " + std::to_string(most),
+                        {}, "write another format, or triangles");
+    }
+}
+
+void append_point(std::string& text, const Vec3& point, char separator) {
+    append_number(text, point.x());
+    text += separator;
+    append_number(text, point.y());
+    text += separator;
+    append_number(text, point.z());
+}
+
+}  // namespace hex::io

@@ -1,0 +1,561 @@
+// Legacy VTK files, versions 1 to 5.1, ASCII and binary: unstructured grids and poly data.
+#include "io/byte_order.h"
+#include "io/formats.h"
+#include "io/text_scanner.h"
+#include "io/vtk_cells.h"
+
+#include <hex/base/error.h>
+
+#include <array>
+#include <limits>
+
+namespace hex::io {
+namespace {
+
+/// Number types of the format.
+enum class Type { bit, int8, uint8, int16, uint16, int32, uint32, int64, uint64, float32, float64 };
+
+std::size_t size_of(Type type) {
+    switch (type) {
+        case Type::bit:
+        case Type::int8:
+        case Type::uint8:
+            return 1;
+        case Type::int16:
+        case Type::uint16:
+            return 2;
+        case Type::int32:
+        case Type::uint32:
+        case Type::float32:
+            return 4;
+        default:
+            return 8;
+    }
+}
+
+class LegacyVtkReader {
+  public:
+    explicit LegacyVtkReader(const InputFile& file) : scanner_(file) {}
+
+    MeshData read() {
+        header();
+        while (!scanner_.at_end() && !stopped_) section(upper_case(scanner_.word("a keyword")));
+        if (!has_points_) scanner_.fail("the file has no POINTS");
+        if (grid_)
+            finish_grid();
+        else
+            finish_poly_data();
+        return std::move(data_);
+    }
+
+  private:
+    /// Cells of one of the sections of poly data, or of CELLS.
+    struct Rows {
+        std::vector<std::size_t> offsets = {0};
+        std::vector<std::uint32_t> corners;
+        std::size_t size() const { return offsets.size() - 1; }
+    };
+    static constexpr std::array<std::string_view, 4> poly_sections = {"VERTICES", "LINES", "POLYGONS",
+                                                                      "TRIANGLE_STRIPS"};
+    static constexpr std::array<int, 4> poly_types = {2, 4, vtk_polygon, 6};
+
+    void header() {
+        const std::string first = lower_case(scanner_.rest_of_line());
+        if (!first.starts_with("# vtk datafile version"))
+            throw Error(ErrorKind::bad_input,
+                        "not a legacy VTK file: it does not start with '# vtk DataFile Version'",
+                        scanner_.file().line_place(0));
+        scanner_.rest_of_line();
+        const std::string encoding = upper_case(scanner_.word("ASCII or BINARY"));
+        if (encoding != "ASCII" && encoding != "BINARY")
+            scanner_.fail("ASCII or BINARY should be here, not " + in_quotes(encoding));
+        binary_ = encoding == "BINARY";
+        if (upper_case(scanner_.word("DATASET")) != "DATASET") scanner_.fail("DATASET should be here");
+        const std::string kind = upper_case(scanner_.word("the kind of data set"));
+        if (kind != "UNSTRUCTURED_GRID" && kind != "POLYDATA")
+            scanner_.unsupported("the data set is a " + in_quotes(kind),
+                                 "UNSTRUCTURED_GRID and POLYDATA can be read");
+        grid_ = kind == "UNSTRUCTURED_GRID";
+    }
+
+    void section(const std::string& keyword) {
+        if (keyword == "POINTS") return points();
+        if (grid_ && keyword == "CELLS") return rows(cells_);
+        if (grid_ && keyword == "CELL_TYPES") return cell_types();
+        if (!grid_) {
+            for (std::size_t i = 0; i < poly_sections.size(); ++i) {
+                if (keyword == poly_sections[i]) return rows(poly_[i]);
+            }
+        }
+        if (keyword == "CELL_DATA" || keyword == "POINT_DATA") {
+            on_cells_ = keyword == "CELL_DATA";
+            tuples_ = scanner_.count("the number of tuples", 1);
+            const std::size_t expected = on_cells_ ? cell_count() : data_.points().size();
+            if (tuples_ != expected)
+                scanner_.fail(keyword + " is for " + std::to_string(tuples_) +
+                              (on_cells_ ? " cells of " : " points of ") + std::to_string(expected));
+            return;
+        }
+        if (keyword == "METADATA") return metadata();
+        if (keyword == "FIELD") return field();
+        if (attribute(keyword)) return;
+        if (has_points_ && cell_count() > 0) {
+            data_.warn("unknown-keyword", "line " + line_number() + ": " + in_quotes(keyword) +
+                                              " is not known; the rest of the file is skipped");
+            stopped_ = true;
+            return;
+        }
+        scanner_.fail("unknown keyword " + in_quotes(keyword));
+    }
+
+    std::string line_number() const {
+        const std::string place = scanner_.place();
+        return place.substr(place.rfind(':') + 1);
+    }
+
+    std::size_t cell_count() const {
+        std::size_t count = cells_.size();
+        for (const Rows& section : poly_) count += section.size();
+        return count;
+    }
+
+    // --- numbers, in text or binary ---
+
+    Type type() {
+        const std::string name = lower_case(scanner_.word("a number type"));
+        struct Entry {
+            const char* name;
+            Type type;
+        };
+        static constexpr std::array entries = {
+            Entry{"double", Type::float64}, Entry{"float", Type::float32}, Entry{"int", Type::int32},
+            Entry{"unsigned_int", Type::uint32}, Entry{"long", Type::int64},
+            Entry{"unsigned_long", Type::uint64}, Entry{"vtktypeint64", Type::int64},
+            Entry{"vtktypeuint64", Type::uint64}, Entry{"vtktypeint32", Type::int32},
+            Entry{"vtktypeuint32", Type::uint32},
+            // Binary files hold vtkIdType as 32-bit numbers.
+            Entry{"vtkidtype", Type::int32}, Entry{"short", Type::int16},
+            Entry{"unsigned_short", Type::uint16}, Entry{"char", Type::int8},
+            Entry{"signed_char", Type::int8}, Entry{"unsigned_char", Type::uint8}, Entry{"bit", Type::bit}};
+        for (const Entry& entry : entries) {
+            if (name == entry.name) return entry.type;
+        }
+        scanner_.unsupported("unknown number type " + in_quotes(name));
+    }
+
+    /// Before the numbers of an array: binary ones start on the next line and must all be there.
+    void start_array(std::size_t count, Type type) {
+        type_ = type;
+        if (!binary_) {
+            scanner_.check_count(static_cast<long long>(std::min<std::size_t>(count, INT64_MAX)),
+                                 "the number of values", 2);
+            return;
+        }
+        scanner_.rest_of_line();
+        const std::size_t left = scanner_.text().size() - scanner_.position();
+        const std::size_t needed = type == Type::bit ? (count + 7) / 8 : count;
+        if (needed > left / size_of(type))
+            fail_binary("the file ends within binary data of " + std::to_string(count) + " numbers");
+    }
+
+    [[noreturn]] void fail_binary(const std::string& what) const {
+        throw Error(ErrorKind::bad_input, what, scanner_.file().byte_place(scanner_.position()));
+    }
+    [[noreturn]] void fail_value(const std::string& what) const {
+        if (binary_) fail_binary(what);
+        scanner_.fail(what);
+    }
+
+    template <class Number>
+    Number take() {
+        const auto value = load<Number>(scanner_.text().data() + scanner_.position(), std::endian::big);
+        scanner_.seek(scanner_.position() + sizeof(Number));
+        return value;
+    }
+    template <class Result>
+    Result take_as() {
+        switch (type_) {
+            case Type::bit:
+            case Type::uint8:
+                return static_cast<Result>(take<std::uint8_t>());
+            case Type::int8:
+                return static_cast<Result>(take<std::int8_t>());
+            case Type::int16:
+                return static_cast<Result>(take<std::int16_t>());
+            case Type::uint16:
+                return static_cast<Result>(take<std::uint16_t>());
+            case Type::int32:
+                return static_cast<Result>(take<std::int32_t>());
+            case Type::uint32:
+                return static_cast<Result>(take<std::uint32_t>());
+            case Type::int64:
+                return static_cast<Result>(take<std::int64_t>());
+            case Type::uint64:
+                return static_cast<Result>(take<std::uint64_t>());
+            case Type::float32:
+                return static_cast<Result>(take<float>());
+            case Type::float64:
+                break;
+        }
+        return static_cast<Result>(take<double>());
+    }
+    long long next_integer() { return binary_ ? take_as<long long>() : scanner_.integer("a value"); }
+    double next_real() { return binary_ ? take_as<double>() : scanner_.real("a value"); }
+    void require_integers(Type type) const {
+        if (type == Type::float32 || type == Type::float64 || type == Type::bit)
+            scanner_.fail("this should be an integer type");
+    }
+
+    // --- geometry ---
+
+    void points() {
+        if (has_points_) scanner_.fail("POINTS a second time");
+        const std::size_t count = scanner_.count("the number of points", binary_ ? 3 : 6);
+        start_array(3 * count, type());
+        has_points_ = true;
+        auto& points = data_.points();
+        points.reserve(count);
+        for (std::size_t i = 0; i < count; ++i) {
+            const double x = next_real();
+            const double y = next_real();
+            const double z = next_real();
+            points.emplace_back(x, y, z);
+            if (binary_ && !points.back().allFinite())
+                fail_binary("point " + std::to_string(i) + " has a coordinate that is not finite");
+        }
+    }
+
+    std::uint32_t next_corner() {
+        const long long v = next_integer();
+        if (v < 0 || v >= static_cast<long long>(data_.points().size()))
+            fail_value("point index " + std::to_string(v) + " is not in 0.." +
+                       std::to_string(static_cast<long long>(data_.points().size()) - 1));
+        return static_cast<std::uint32_t>(v);
+    }
+
+    void rows(Rows& result) {
+        if (!has_points_) scanner_.fail("POINTS must come before the cells");
+        if (result.size() > 0) scanner_.fail("this section is there a second time");
+        const std::size_t count = scanner_.count("the number of cells", 1);
+        const std::size_t size = scanner_.count("the size of the cell list", 1);
+        if (upper_case(scanner_.peek()) == "OFFSETS") return rows_with_offsets(result, count, size);
+        if (count > size)
+            scanner_.fail(std::to_string(count) + " cells do not fit into a list of " + std::to_string(size) +
+                          " numbers");
+        start_array(size, Type::int32);
+        result.offsets.reserve(count + 1);
+        result.corners.reserve(size - count);
+        std::size_t left = size;
+        for (std::size_t c = 0; c < count; ++c) {
+            const long long corners = left > 0 ? next_integer() : 0;
+            if (corners < 1 || static_cast<unsigned long long>(corners) > left - 1)
+                fail_value("cell " + std::to_string(c) + " with " + std::to_string(corners) +
+                           " corners does not fit into the list of " + std::to_string(size) + " numbers");
+            left -= static_cast<std::size_t>(corners) + 1;
+            for (long long i = 0; i < corners; ++i) result.corners.push_back(next_corner());
+            result.offsets.push_back(result.corners.size());
+        }
+        if (left > 0) fail_value("the cells leave " + std::to_string(left) + " numbers of their list unused");
+    }
+
+    /// The layout since version 5: offsets of all cells, then corners of all cells.
+    void rows_with_offsets(Rows& result, std::size_t count, std::size_t size) {
+        scanner_.word("OFFSETS");
+        Type offsets_type = type();
+        require_integers(offsets_type);
+        start_array(count, offsets_type);
+        result.offsets.clear();
+        result.offsets.reserve(count + 1);
+        for (std::size_t i = 0; i < count; ++i) {
+            const long long offset = next_integer();
+            const long long before = i == 0 ? 0 : static_cast<long long>(result.offsets.back());
+            if (offset < before || (i == 0 && offset != 0) || offset > static_cast<long long>(size))
+                fail_value("offset " + std::to_string(offset) + " of cell " + std::to_string(i) +
+                           " does not follow " + std::to_string(before));
+            result.offsets.push_back(static_cast<std::size_t>(offset));
+        }
+        if (count == 0) result.offsets.push_back(0);
+        if (result.offsets.back() != size)
+            fail_value("the offsets end at " + std::to_string(result.offsets.back()) + ", not at " +
+                       std::to_string(size));
+        if (upper_case(scanner_.word("CONNECTIVITY")) != "CONNECTIVITY")
+            scanner_.fail("CONNECTIVITY should be here");
+        const Type corners_type = type();
+        require_integers(corners_type);
+        start_array(size, corners_type);
+        result.corners.reserve(size);
+        for (std::size_t i = 0; i < size; ++i) result.corners.push_back(next_corner());
+    }
+
+    void cell_types() {
+        const std::size_t count = scanner_.count("the number of cell types", 1);
+        if (count != cells_.size())
+            scanner_.fail(std::to_string(count) + " cell types for " + std::to_string(cells_.size()) +
+                          " cells");
+        start_array(count, Type::int32);
+        types_.reserve(count);
+        for (std::size_t i = 0; i < count; ++i) {
+            const long long value = next_integer();
+            if (value < 0 || value > 255)
+                fail_value("cell type " + std::to_string(value) + " does not exist");
+            types_.push_back(static_cast<int>(value));
+        }
+    }
+
+    // --- attributes: all are skipped but a cell scalar of part ids ---
+
+    void values(const std::string& name, Type type, std::size_t components, std::size_t tuples) {
+        if (components != 0 && tuples > std::numeric_limits<std::size_t>::max() / components)
+            scanner_.fail("too many values");
+        const std::size_t count = components * tuples;
+        start_array(count, type);
+        const bool wanted =
+            on_cells_ && components == 1 && tuples == cell_count() && parts_.empty() && names_part_ids(name);
+        if (wanted && type != Type::bit) {
+            std::vector<double> part_values(count);
+            for (double& value : part_values) value = next_real();
+            if (auto parts = to_parts(part_values))
+                parts_ = std::move(*parts);
+            else
+                data_.warn("part-ids-skipped", "cell field " + in_quotes(name) +
+                                                   " holds values that are no integers: part ids skipped");
+        } else if (binary_) {
+            const std::size_t bytes = type == Type::bit ? (count + 7) / 8 : count * size_of(type);
+            scanner_.seek(scanner_.position() + bytes);
+        } else {
+            // Values of skipped fields may be anything, nan too.
+            for (std::size_t i = 0; i < count; ++i) scanner_.word("a value");
+        }
+    }
+
+    bool attribute(const std::string& keyword) {
+        const auto name = [&] { return std::string(scanner_.word("a name")); };
+        if (keyword == "SCALARS") {
+            const std::string field_name = name();
+            const Type field_type = type();
+            const std::string_view rest = scanner_.rest_of_line();
+            std::size_t components = 1;
+            if (!rest.empty()) {
+                const auto value = parse_integer(rest);
+                if (!value || *value < 1 || *value > 4)
+                    scanner_.fail("the number of components should be 1 to 4, not " + in_quotes(rest));
+                components = static_cast<std::size_t>(*value);
+            }
+            // The lookup table is not optional, but some files have none.
+            if (upper_case(scanner_.peek()) == "LOOKUP_TABLE") {
+                scanner_.word("LOOKUP_TABLE");
+                name();
+            } else {
+                // Back to the end of the line, where an array starts.
+                scanner_.seek(scanner_.position() - 1);
+            }
+            values(field_name, field_type, components, tuples_);
+            return true;
+        }
+        if (keyword == "LOOKUP_TABLE") {
+            name();
+            values("", binary_ ? Type::uint8 : Type::float32, 4, scanner_.count("the size of the table", 4));
+            return true;
+        }
+        if (keyword == "COLOR_SCALARS") {
+            name();
+            values("", binary_ ? Type::uint8 : Type::float32, scanner_.count("the number of components", 1),
+                   tuples_);
+            return true;
+        }
+        if (keyword == "TEXTURE_COORDINATES") {
+            name();
+            const std::size_t components = scanner_.count("the dimension", 1);
+            values("", type(), components, tuples_);
+            return true;
+        }
+        const std::size_t components =
+            keyword == "VECTORS" || keyword == "NORMALS"                                      ? 3
+            : keyword == "TENSORS"                                                            ? 9
+            : keyword == "TENSORS6"                                                           ? 6
+            : keyword == "GLOBAL_IDS" || keyword == "PEDIGREE_IDS" || keyword == "EDGE_FLAGS" ? 1
+                                                                                              : 0;
+        if (components == 0) return false;
+        name();
+        values("", type(), components, tuples_);
+        return true;
+    }
+
+    void field() {
+        scanner_.word("a name");
+        const std::size_t arrays = scanner_.count("the number of arrays", 1);
+        for (std::size_t i = 0; i < arrays; ++i) {
+            while (upper_case(scanner_.peek()) == "METADATA") {
+                scanner_.word("METADATA");
+                metadata();
+            }
+            const std::string array_name(scanner_.word("the name of an array"));
+            const std::size_t components = scanner_.count("the number of components", 1);
+            const std::size_t tuples = scanner_.count("the number of tuples", 1);
+            if (lower_case(scanner_.peek()) == "string") {
+                if (binary_) scanner_.unsupported("binary arrays of strings are not supported");
+                scanner_.word("string");
+                scanner_.rest_of_line();
+                for (std::size_t s = 0; s < components * tuples && !scanner_.at_end(); ++s)
+                    scanner_.rest_of_line();
+                continue;
+            }
+            values(array_name, type(), components, tuples);
+        }
+    }
+
+    /// Everything up to an empty line.
+    void metadata() {
+        scanner_.rest_of_line();
+        while (scanner_.position() < scanner_.text().size() && !scanner_.rest_of_line().empty()) {
+        }
+    }
+
+    // --- the result ---
+
+    void finish_grid() {
+        if (types_.size() != cells_.size()) scanner_.fail("the file ends before CELL_TYPES");
+        append_cells(data_, {std::move(types_), std::move(cells_.offsets), std::move(cells_.corners)}, parts_,
+                     scanner_.file().name());
+    }
+
+    void finish_poly_data() {
+        VtkCells all;
+        for (std::size_t s = 0; s < poly_.size(); ++s) {
+            for (std::size_t c = 0; c < poly_[s].size(); ++c) {
+                all.types.push_back(poly_types[s]);
+                all.offsets.push_back(all.corners.size() + poly_[s].offsets[c + 1]);
+            }
+            all.corners.insert(all.corners.end(), poly_[s].corners.begin(), poly_[s].corners.end());
+        }
+        append_cells(data_, all, parts_, scanner_.file().name());
+    }
+
+    TextScanner scanner_;
+    MeshData data_;
+    bool binary_ = false;
+    bool grid_ = false;
+    bool has_points_ = false;
+    bool stopped_ = false;
+    bool on_cells_ = false;
+    std::size_t tuples_ = 0;
+    Type type_ = Type::int32;
+    Rows cells_;
+    std::array<Rows, 4> poly_;
+    std::vector<int> types_;
+    std::vector<int> parts_;
+};
+
+void write_points(OutputFile& out, std::span<const Vec3> points) {
+    out.write("# vtk DataFile Version 3.0\nwritten by hexspline\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS ");
+    std::string& text = out.buffer();
+    append_number(text, points.size());
+    text += " double\n";
+    for (const Vec3& point : points) {
+        append_point(text, point);
+        text += '\n';
+        out.flush_if_large();
+    }
+}
+
+void write_section(OutputFile& out, const char* keyword, std::size_t first, const char* separator = "\n") {
+    out.buffer() += keyword;
+    append_number(out.buffer(), first);
+    out.buffer() += separator;
+}
+
+template <class Value>
+void write_lines(OutputFile& out, std::size_t count, const Value& value) {
+    for (std::size_t i = 0; i < count; ++i) {
+        append_number(out.buffer(), value(i));
+        out.buffer() += '\n';
+        out.flush_if_large();
+    }
+}
+
+/// VTK's own escape: a field name is one word.
+std::string encoded_name(std::string_view name) {
+    static constexpr char digits[] = "0123456789ABCDEF";
+    std::string result;
+    for (const char c : name) {
+        const auto byte = static_cast<unsigned char>(c);
+        if (byte <= 32 || byte >= 127 || c == '%' || c == '"') {
+            result += '%';
+            result += digits[byte / 16];
+            result += digits[byte % 16];
+        } else {
+            result += c;
+        }
+    }
+    return result.empty() ? "field" : result;
+}
+
+void write_scalars(OutputFile& out, const std::vector<ScalarField>& fields) {
+    for (const ScalarField& field : fields) {
+        out.write("SCALARS " + encoded_name(field.name) + " double 1\nLOOKUP_TABLE default\n");
+        write_lines(out, field.values.size(), [&](std::size_t i) { return field.values[i]; });
+    }
+}
+
+void write_parts(OutputFile& out, std::span<const int> parts) {
+    out.write("SCALARS " + std::string(part_field) + " int 1\nLOOKUP_TABLE default\n");
+    write_lines(out, parts.size(), [&](std::size_t i) { return parts[i]; });
+}
+
+}  // namespace
+
+MeshData read_legacy_vtk(const InputFile& file) {
+    return LegacyVtkReader(file).read();
+}
+
+void write_legacy_vtk_surface(OutputFile& out, const PolygonSoup& soup) {
+    write_points(out, soup.points);
+    write_section(out, "CELLS ", soup.size(), " ");
+    write_section(out, "", soup.size() + soup.corners.size());
+    std::string& text = out.buffer();
+    for (std::size_t f = 0; f < soup.size(); ++f) {
+        append_number(text, soup.polygon(f).size());
+        for (const std::uint32_t v : soup.polygon(f)) {
+            text += ' ';
+            append_number(text, v);
+        }
+        text += '\n';
+        out.flush_if_large();
+    }
+    write_section(out, "CELL_TYPES ", soup.size());
+    write_lines(out, soup.size(), [&](std::size_t f) { return polygon_type(soup.polygon(f).size()); });
+    if (has_parts(soup.parts)) {
+        write_section(out, "CELL_DATA ", soup.size());
+        write_parts(out, soup.parts);
+    }
+}
+
+void write_legacy_vtk_hexahedra(OutputFile& out, const HexMesh& mesh, const Fields& fields) {
+    write_points(out, mesh.positions());
+    write_section(out, "CELLS ", mesh.cell_count(), " ");
+    write_section(out, "", 9 * mesh.cell_count());
+    std::string& text = out.buffer();
+    for (const CellId c : mesh.cells()) {
+        text += '8';
+        for (const VertexId v : mesh.cell(c)) {
+            text += ' ';
+            append_number(text, v.value());
+        }
+        text += '\n';
+        out.flush_if_large();
+    }
+    write_section(out, "CELL_TYPES ", mesh.cell_count());
+    write_lines(out, mesh.cell_count(), [](std::size_t) { return int{vtk_hexahedron}; });
+    const bool parts = has_parts(mesh.parts());
+    if (parts || !fields.cell.empty()) {
+        write_section(out, "CELL_DATA ", mesh.cell_count());
+        if (parts) write_parts(out, mesh.parts());
+        write_scalars(out, fields.cell);
+    }
+    if (!fields.vertex.empty()) {
+        write_section(out, "POINT_DATA ", mesh.vertex_count());
+        write_scalars(out, fields.vertex);
+    }
+}
+
+}  // namespace hex::io
