@@ -1,11 +1,21 @@
 #include "map/triangle_locator.h"
 
+// Boost.Geometry 1.74 itself includes a header that Boost 1.74 announces to remove.
+#define BOOST_ALLOW_DEPRECATED_HEADERS
+#include <boost/geometry/algorithms/disjoint.hpp>
+#include <boost/geometry/geometries/box.hpp>
+#include <boost/geometry/geometries/point_xy.hpp>
+#include <boost/geometry/index/rtree.hpp>
 #include <boost/iterator/function_output_iterator.hpp>
 
 #include <limits>
 
 namespace hex {
 namespace {
+
+using Point = boost::geometry::model::d2::point_xy<double>;
+using Box = boost::geometry::model::box<Point>;
+using Entry = std::pair<Box, int>;
 
 double cross(const Vec2& a, const Vec2& b) {
     return a.x() * b.y() - a.y() * b.x();
@@ -20,6 +30,12 @@ bool barycentric(const Vec2& p, const Vec2& a, const Vec2& b, const Vec2& c, Vec
 }
 
 }  // namespace
+
+struct TriangleLocator::Tree {
+    boost::geometry::index::rtree<Entry, boost::geometry::index::quadratic<8>> boxes;
+};
+
+TriangleLocator::~TriangleLocator() = default;
 
 TriangleLocator::TriangleLocator(const std::vector<Vec2>& uv,
                                  const std::vector<std::array<int, 3>>& triangles) {
@@ -39,7 +55,7 @@ TriangleLocator::TriangleLocator(const std::vector<Vec2>& uv,
             static_cast<int>(t));
     }
     // The range constructor packs the tree: balanced, and the same for the same input.
-    tree_ = decltype(tree_)(entries.begin(), entries.end());
+    tree_ = std::make_unique<Tree>(Tree{{entries.begin(), entries.end()}});
 }
 
 TriangleLocator::Location TriangleLocator::locate(const Vec2& p, const std::vector<Vec2>& uv,
@@ -58,8 +74,9 @@ TriangleLocator::Location TriangleLocator::locate(const Vec2& p, const std::vect
             best = {t, weights};
         }
     };
-    tree_.query(boost::geometry::index::intersects(Point(p.x(), p.y())),
-                boost::make_function_output_iterator([&](const Entry& entry) { consider(entry.second); }));
+    tree_->boxes.query(
+        boost::geometry::index::intersects(Point(p.x(), p.y())),
+        boost::make_function_output_iterator([&](const Entry& entry) { consider(entry.second); }));
     if (best.triangle < 0)
         for (std::size_t t = 0; t < triangles.size(); ++t) consider(static_cast<int>(t));
     if (best.triangle >= 0) {

@@ -4,12 +4,8 @@
 
 #include <hex/base/linear_algebra.h>
 
-#include <boost/geometry/algorithms/disjoint.hpp>
-#include <boost/geometry/geometries/box.hpp>
-#include <boost/geometry/geometries/point_xy.hpp>
-#include <boost/geometry/index/rtree.hpp>
-
 #include <array>
+#include <memory>
 #include <vector>
 
 namespace hex {
@@ -23,6 +19,7 @@ class TriangleLocator {
     };
 
     TriangleLocator(const std::vector<Vec2>& uv, const std::vector<std::array<int, 3>>& triangles);
+    ~TriangleLocator();
 
     /// Of the triangles whose box holds the point, the one in which the smallest barycentric coordinate is
     /// largest; the one with the lowest index if equal. Of all triangles when no box holds it.
@@ -30,11 +27,8 @@ class TriangleLocator {
                     const std::vector<std::array<int, 3>>& triangles) const;
 
   private:
-    using Point = boost::geometry::model::d2::point_xy<double>;
-    using Box = boost::geometry::model::box<Point>;
-    using Entry = std::pair<Box, int>;
-
-    boost::geometry::index::rtree<Entry, boost::geometry::index::quadratic<8>> tree_;
+    struct Tree;
+    std::unique_ptr<Tree> tree_;
 };
 
 }  // namespace hex
