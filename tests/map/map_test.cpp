@@ -52,6 +52,7 @@ TEST(Map, BoxWithOneBlockIsTheExactGrid) {
     const TriangleMesh surface = make_triangle_mesh(test::box_surface(3, 2, 1, 5));
     const HexMesh blocks =
         moved(test::grid(1, 1, 1), [](const Vec3& p) { return Vec3(3 * p.x(), 2 * p.y(), p.z()); });
+    const double rounding = 8 * std::numeric_limits<double>::epsilon() * bounding_box(surface).diagonal();
     for (const int level : {0, 1, 2, 3}) {
         const MapResult result = map(surface, blocks, {.level = level});
         const int n = 1 << level;
@@ -66,7 +67,7 @@ TEST(Map, BoxWithOneBlockIsTheExactGrid) {
                         const auto& uvw = hexahedron::corner_uvw[c];
                         const Vec3 exact(3.0 * (i + uvw[0]) / n, 2.0 * (j + uvw[1]) / n,
                                          1.0 * (k + uvw[2]) / n);
-                        EXPECT_LT((corners[c] - exact).norm(), 2e-15);
+                        EXPECT_LT((corners[c] - exact).norm(), rounding);
                     }
                 }
         EXPECT_EQ(result.report.patches, 6U);
@@ -237,7 +238,10 @@ TEST(MapErrors, PatchesThatAreNotFourSidedAreNamed) {
     for (int& part : soup.parts)
         if (part == 3) part = 1;
     const std::string message = message_of(make_triangle_mesh(soup), test::grid(1, 1, 1));
-    expect_contains(message, "patch 0 (part 1)");
+    // Of the two patches that lost a corner to the joined ones, the first is described.
+    expect_contains(message, "2 of 5 patches (3, 4)");
+    expect_contains(message, "patch 3 (part 5");
+    expect_contains(message, "3 corners instead of four");
     expect_contains(message, "polycube");
 }
 
@@ -321,7 +325,7 @@ TEST(MapErrors, TwoChainsForOneBlockEdge) {
 TEST(MapErrors, SurfaceWithoutCorners) {
     PolygonSoup soup = test::box_surface(1, 1, 1, 2);
     for (int& part : soup.parts) part = 1;
-    expect_contains(message_of(make_triangle_mesh(soup), test::grid(1, 1, 1)), "patch 0 (part 1)");
+    expect_contains(message_of(make_triangle_mesh(soup), test::grid(1, 1, 1)), "patch 0 (part 1");
 }
 
 TEST(MapErrors, OptionsOutOfRange) {

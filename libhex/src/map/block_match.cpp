@@ -48,18 +48,13 @@ std::array<int, 4> sorted(std::array<int, 4> corners) {
 }
 
 void require_four_sided(const PatchLayout& layout) {
-    std::string names;
-    std::size_t count = 0;
-    for (std::size_t p = 0; p < layout.patches.size(); ++p) {
-        if (layout.patches[p].four_sided) continue;
-        if (++count <= 8) names += (names.empty() ? "" : ", ") + name_of(layout, p);
-    }
-    if (count == 0) return;
-    const Diagnostics findings = diagnose_layout(layout);
-    fail(fmt::format("{} of {} patches are not disks with four corners: {}{}{}", count, layout.patches.size(),
-                     names, count > 8 ? ", ..." : "",
-                     findings.empty() ? "" : "; first: " + findings.front().message),
-         "give a surface whose part ids are four-sided patches (`polycube` lists what is wrong with each)");
+    std::vector<std::int64_t> bad;
+    for (std::size_t p = 0; p < layout.patches.size(); ++p)
+        if (!layout.patches[p].four_sided) bad.push_back(static_cast<std::int64_t>(p));
+    if (bad.empty()) return;
+    fail(fmt::format("{} of {} patches ({}) are not disks with four corners: {}", bad.size(),
+                     layout.patches.size(), list_ids(bad), diagnose_layout(layout).front().message),
+         "give a surface whose part ids are four-sided patches (`polycube` tells what is wrong with each)");
 }
 
 /// Boundary vertices of the blocks to corners of the surface.
