@@ -17,7 +17,9 @@ MapResult map(const TriangleMesh& surface, const HexMesh& blocks, const MapOptio
                     fmt::format("choose 0 (blocks as they are) .. {}", largest_map_level));
     if (!(options.snap_warning >= 0.0))
         throw Error(ErrorKind::usage, "the distance to warn of must be a number that is not negative");
-    return mappers().make(options.method)->map(surface, blocks, options, context);
+    MapResult result = mappers().make(options.method)->map(surface, blocks, options, context);
+    result.report.method = options.method;
+    return result;
 }
 
 }  // namespace hex

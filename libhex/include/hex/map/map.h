@@ -38,6 +38,7 @@ struct PatchMapRecord {
 };
 
 struct MapReport {
+    std::string method;
     std::size_t patches = 0;
     std::size_t blocks = 0;
     /// Distance between a block corner and its surface corner, in units of the diagonal.
