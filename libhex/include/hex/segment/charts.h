@@ -16,7 +16,7 @@ struct LabelChart {
     int label = 0;
     std::vector<int> triangles;  ///< ascending
     std::vector<int>
-        boundaries;  ///< indices into LabelCharts::boundaries; twice when both sides are this chart
+        boundaries;  ///< indices into LabelCharts::boundaries
     int euler_characteristic = 0;  ///< V - E + F; 1 for a disk
 };
 
