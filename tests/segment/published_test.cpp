@@ -99,7 +99,8 @@ TEST_P(PublishedModel, ClassicalSweepsDoNotRaiseTheEnergy) {
         io::read_surface(test::reference_data() / "paper" / name / (name + "_tri.k")).soup));
     const auto& sweeps = result.report.sweeps;
     for (std::size_t s = 1; s < sweeps.size(); ++s) {
-        if (sweeps[s].phase == sweeps[s - 1].phase) EXPECT_LE(sweeps[s].energy, sweeps[s - 1].energy);
+        if (sweeps[s].phase != "cvt") break;
+        EXPECT_LE(sweeps[s].energy, sweeps[s - 1].energy);
     }
 }
 
