@@ -38,6 +38,20 @@ BoundaryQuads boundary_quads(const HexMesh& mesh) {
     return boundary;
 }
 
+namespace {
+
+/// Calls `visit(edge)` for the four edges of a half-face.
+template <class Visit>
+void for_each_edge(const EdgeTable& table, HalfFaceId h, const Visit& visit) {
+    const auto& corners = hexahedron::face_corners[static_cast<std::size_t>(HexMesh::local_face(h))];
+    for (std::size_t i = 0; i < 4; ++i) {
+        const int e = hexahedron::edge_between(corners[i], corners[(i + 1) % 4]);
+        visit(table.cell_edges[HexMesh::cell_of(h).index()][static_cast<std::size_t>(e)]);
+    }
+}
+
+}  // namespace
+
 EdgeTable edge_table(const HexMesh& mesh) {
     // Every cell edge in the bucket of its smaller vertex, with its larger vertex and its place in the cell.
     struct CellEdge {
@@ -96,12 +110,7 @@ EdgeTable edge_table(const HexMesh& mesh) {
     table.boundary.assign(edge_count, 0);
     for (const HalfFaceId h : mesh.half_faces()) {
         if (!mesh.is_boundary(h)) continue;
-        const auto& corners = hexahedron::face_corners[static_cast<std::size_t>(HexMesh::local_face(h))];
-        for (std::size_t i = 0; i < 4; ++i) {
-            const int e = hexahedron::edge_between(corners[i], corners[(i + 1) % 4]);
-            table.boundary[table.cell_edges[HexMesh::cell_of(h).index()][static_cast<std::size_t>(e)]
-                               .index()] = 1;
-        }
+        for_each_edge(table, h, [&](EdgeId e) { table.boundary[e.index()] = 1; });
     }
     table.vertex_edges = rows_by_counting<EdgeId>(vertex_count, [&](const auto& emit) {
         for (std::size_t e = 0; e < edge_count; ++e) {
@@ -174,8 +183,7 @@ Diagnostics inspect(const HexMesh& mesh) {
     std::vector<int> quads(edges.size(), 0);
     for (const HalfFaceId h : mesh.half_faces()) {
         if (!mesh.is_boundary(h)) continue;
-        const auto corners = mesh.face_vertices(h);
-        for (std::size_t i = 0; i < 4; ++i) ++quads[edges.find(corners[i], corners[(i + 1) % 4]).index()];
+        for_each_edge(edges, h, [&](EdgeId e) { ++quads[e.index()]; });
     }
     for (std::size_t e = 0; e < edges.size(); ++e) {
         if (quads[e] > 2) crowded.push_back(static_cast<std::int64_t>(e));
