@@ -66,7 +66,7 @@ Json report_of(const hex::SegmentReport& report, const hex::SegmentOptions& opti
                           {"moves", sweep.moves},
                           {"energy", sweep.energy}});
     return {{"method", report.method},
-            {"weight", options.boundary_weight},
+            {"weight", report.sweeps.empty() ? Json(nullptr) : Json(options.boundary_weight)},
             {"label_counts", counts},
             {"charts", report.charts},
             {"boundaries", report.boundaries},
@@ -91,7 +91,9 @@ void tell_violations(const CommandLine& line, const hex::Diagnostics& violations
         if (kind.count++ == 0) kind.first = violation.message;
     }
     for (const auto& [code, kind] : kinds)
-        line.warn(std::to_string(kind.count) + " " + code + ", the first: " + kind.first);
+        line.warn(
+            code + ": " + kind.first +
+            (kind.count > 1 ? " (and " + std::to_string(kind.count - 1) + " more; see -v or --json)" : ""));
 }
 
 void tell_summary(const CommandLine& line, const hex::SegmentReport& report) {
