@@ -416,7 +416,7 @@ TEST(Medit, TokensMayBeSplitOverLinesAnyHow) {
                                    "MeshVersionFormatted\n2 # c\nDimension\n3\nVertices 8 0 0 0 0\n1 0 0 0 1 "
                                    "1 0 0 0 1 0\n0 0 0 1 0 1 0 1 0\n1 1 1 0 0 1 1 0\n"
                                    "Corners\n1\n1\nEdges 1 1 2 0\nQuadrilaterals\n1\n1 2 3 4 9\nSomething "
-                                   "1\n-3\nHexahedra\n1\n1 2 3 4 5\n6 7 8 -4\n");
+                                   "1\n-3\nHexahedra\n1\n1 2 3 4 5\n6 7 8 -4\nEnd\n");
     expect_cube(file.mesh);
     EXPECT_EQ(count_at_least(file.diagnostics, Severity::warning), 1u);
 }

@@ -19,9 +19,9 @@ class MeditReader {
         if (lower_case(scanner_.word("MeshVersionFormatted")) != "meshversionformatted")
             scanner_.fail("not a Medit file: it does not start with MeshVersionFormatted");
         scanner_.integer("the version");
-        while (!scanner_.at_end()) {
-            if (!section(std::string(scanner_.word("a keyword")))) break;
-        }
+        bool ended = false;
+        while (!ended && !scanner_.at_end()) ended = !section(std::string(scanner_.word("a keyword")));
+        if (!ended) data_.warn("no-end", "the file has no End: it may have been cut off");
         // Reference 0 (or a negative one) everywhere means: no references.
         drop_common_reference(data_.surface.parts);
         drop_common_reference(data_.hexahedron_parts);
