@@ -158,6 +158,8 @@ TEST(LsDyna, UnknownKeywordsAreWarnedOnceAndSkipped) {
     EXPECT_EQ(file.diagnostics[0].code, "unknown-keyword");
     EXPECT_EQ(file.diagnostics[0].ids, (std::vector<std::int64_t>{4}));
     EXPECT_EQ(file.diagnostics[1].ids, (std::vector<std::int64_t>{7, 17}));
+    EXPECT_NE(file.diagnostics[1].message.find("a.k:7: keyword '*SET_NODE_LIST'"), std::string::npos)
+        << file.diagnostics[1].message;
 }
 
 const std::string cube_nodes =

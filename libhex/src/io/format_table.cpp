@@ -61,7 +61,7 @@ const std::vector<Format>& table() {
     return formats;
 }
 
-const Format* find_format(const std::filesystem::path& path) {
+const Format* lookup(const std::filesystem::path& path) {
     const std::string extension = lower_case(path.extension().string());
     for (const Format& format : table()) {
         const auto& known = format.info.extensions;
@@ -71,7 +71,7 @@ const Format* find_format(const std::filesystem::path& path) {
 }
 
 const Format& format_of(const std::filesystem::path& path, bool FormatInfo::*wanted, const char* purpose) {
-    const Format* format = find_format(path);
+    const Format* format = lookup(path);
     if (format != nullptr && format->info.*wanted) return *format;
     const std::string extension = path.extension().string();
     const std::string what = format != nullptr
@@ -90,6 +90,17 @@ MeshData read_with(const Format& (*choose)(const std::filesystem::path&), const 
     return format.read(InputFile(path));
 }
 
+/// Messages of a reader stand for themselves: with the file, and the first line they are about.
+Diagnostics located(Diagnostics&& diagnostics, const std::filesystem::path& path) {
+    for (Diagnostic& finding : diagnostics) {
+        std::string message = path.string();
+        if (finding.entity == "line" && !finding.ids.empty())
+            message.append(":").append(std::to_string(finding.ids.front()));
+        finding.message = message.append(": ").append(finding.message);
+    }
+    return std::move(diagnostics);
+}
+
 std::string plural(std::size_t count, const char* one, const char* many) {
     return std::to_string(count) + " " + (count == 1 ? one : many);
 }
@@ -105,7 +116,7 @@ SurfaceFile to_surface(MeshData&& data, const std::filesystem::path& path) {
     }
     if (!data.hexahedra.empty())
         data.warn("hexahedra-skipped", plural(data.hexahedra.size(), "hexahedron", "hexahedra") + " skipped");
-    return {std::move(data.surface), std::move(data.diagnostics)};
+    return {std::move(data.surface), located(std::move(data.diagnostics), path)};
 }
 
 HexFile to_hexahedra(MeshData&& data, const std::filesystem::path& path) {
@@ -130,7 +141,7 @@ HexFile to_hexahedra(MeshData&& data, const std::filesystem::path& path) {
     } catch (const Error& error) {
         throw error.located(path.string());
     }
-    result.diagnostics = std::move(data.diagnostics);
+    result.diagnostics = located(std::move(data.diagnostics), path);
     return result;
 }
 
@@ -169,6 +180,11 @@ const std::vector<FormatInfo>& formats() {
         return list;
     }();
     return infos;
+}
+
+const FormatInfo* find_format(const std::filesystem::path& path) {
+    const Format* format = lookup(path);
+    return format == nullptr ? nullptr : &format->info;
 }
 
 std::string extensions_of(bool FormatInfo::*flag) {

@@ -100,17 +100,18 @@ class LegacyVtkReader {
         if (keyword == "FIELD") return field();
         if (attribute(keyword)) return;
         if (has_points_ && cell_count() > 0) {
-            data_.warn("unknown-keyword", "line " + line_number() + ": " + in_quotes(keyword) +
-                                              " is not known; the rest of the file is skipped");
+            data_.warn("unknown-keyword",
+                       in_quotes(keyword) + " is not known; the rest of the file is skipped", "line",
+                       {line_number()});
             stopped_ = true;
             return;
         }
         scanner_.fail("unknown keyword " + in_quotes(keyword));
     }
 
-    std::string line_number() const {
+    std::int64_t line_number() const {
         const std::string place = scanner_.place();
-        return place.substr(place.rfind(':') + 1);
+        return parse_integer(place.substr(place.rfind(':') + 1)).value_or(0);
     }
 
     std::size_t cell_count() const {

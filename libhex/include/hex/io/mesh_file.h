@@ -36,6 +36,9 @@ struct FormatInfo {
 /// All formats, in the order of docs/formats.md.
 const std::vector<FormatInfo>& formats();
 
+/// The format that the extension of `path` names, or nullptr.
+const FormatInfo* find_format(const std::filesystem::path& path);
+
 /// Extensions of the formats for which `flag` is set, separated by blanks, for messages and help:
 /// `extensions_of(&FormatInfo::writes_hexahedra)` is ".k .key .vtk .vtu .mesh".
 std::string extensions_of(bool FormatInfo::*flag);
