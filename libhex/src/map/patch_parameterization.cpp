@@ -1,13 +1,15 @@
+#include "map/dirichlet_solver.h"
+
 #include <hex/base/error.h>
 #include <hex/map/patch_map.h>
 #include <hex/surface/cgal_bridge.h>
 
-#include <CGAL/Eigen_solver_traits.h>
 #include <CGAL/Surface_mesh_parameterization/Barycentric_mapping_parameterizer_3.h>
 #include <CGAL/Surface_mesh_parameterization/Discrete_conformal_map_parameterizer_3.h>
 #include <CGAL/Surface_mesh_parameterization/Mean_value_coordinates_parameterizer_3.h>
 #include <CGAL/Surface_mesh_parameterization/Square_border_parameterizer_3.h>
 #include <CGAL/predicates_on_points_2.h>
+#include <Eigen/SparseCholesky>
 #include <Eigen/SparseLU>
 #include <fmt/format.h>
 
@@ -26,10 +28,13 @@ using VertexHandle = TriangleMesh::VertexHandle;
 using HalfedgeHandle = TriangleMesh::HalfedgeHandle;
 
 using Border = smp::Square_border_arc_length_parameterizer_3<TriangleMesh>;
-using Solver = CGAL::Eigen_solver_traits<Eigen::SparseLU<CGAL::Eigen_sparse_matrix<double>::EigenType>>;
-using DiscreteConformal = smp::Discrete_conformal_map_parameterizer_3<TriangleMesh, Border, Solver>;
-using MeanValue = smp::Mean_value_coordinates_parameterizer_3<TriangleMesh, Border, Solver>;
-using Uniform = smp::Barycentric_mapping_parameterizer_3<TriangleMesh, Border, Solver>;
+// Cotangents make the stiffness matrix of linear elements, uniform weights a graph Laplacian: both positive
+// definite once the border is fixed. Mean-value weights are not symmetric.
+using Cholesky = DirichletSolver<Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>>;
+using GaussianElimination = DirichletSolver<Eigen::SparseLU<Eigen::SparseMatrix<double>>>;
+using DiscreteConformal = smp::Discrete_conformal_map_parameterizer_3<TriangleMesh, Border, Cholesky>;
+using MeanValue = smp::Mean_value_coordinates_parameterizer_3<TriangleMesh, Border, GaussianElimination>;
+using Uniform = smp::Barycentric_mapping_parameterizer_3<TriangleMesh, Border, Cholesky>;
 
 /// A property map of CGAL's over the vertices of a mesh, kept outside the mesh.
 template <class Value>
@@ -128,7 +133,7 @@ std::optional<std::vector<Vec2>> flatten(PatchMesh& patch) {
     const Border border(patch.corners[0], patch.corners[3], patch.corners[2], patch.corners[1]);
     std::deque<Point2> uv(patch.mesh.n_vertices(), Point2(0, 0));
     std::deque<bool> done(patch.mesh.n_vertices(), false);
-    Parameterizer parameterizer(border, Solver());
+    Parameterizer parameterizer(border);
     if (parameterizer.parameterize(patch.mesh, border_at_first_corner(patch), VertexValues<Point2>{&uv},
                                    VertexIndex(), VertexValues<bool>{&done}) != smp::OK)
         return std::nullopt;
