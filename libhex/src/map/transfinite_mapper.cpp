@@ -1,5 +1,5 @@
-/// The method `transfinite`: Chen, Yu, Zhang et al., HexGen and Hex2Spline, section on parametric mapping,
-/// with transfinite interpolation where the paper relaxes and interpolates by coordinates.
+/// The method `transfinite`: Yu, Wei, Li, Liu, He, Zhang: HexGen and Hex2Spline, section on parametric
+/// mapping, with transfinite interpolation where the paper relaxes and interpolates by coordinates.
 
 #include <hex/base/parallel.h>
 #include <hex/map/block_match.h>

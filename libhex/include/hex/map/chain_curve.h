@@ -9,8 +9,8 @@
 
 namespace hex {
 
-/// The polyline through the vertices of a chain, t = length so far / whole length (Chen, Yu, Zhang et al.,
-/// HexGen and Hex2Spline, section on parametric mapping: t_i = L_i / L). A chain without length is
+/// The polyline through the vertices of a chain, t = length so far / whole length (Yu, Wei, Li, Liu, He,
+/// Zhang: HexGen and Hex2Spline, section on parametric mapping: t_i = L_i / L). A chain without length is
 /// parameterised uniformly by its edges.
 class ChainCurve {
   public:
