@@ -1,0 +1,82 @@
+/// \file bezier.h
+/// A spline by Bezier extraction: control points, Bezier points as combinations of them, elements as 64
+/// Bezier points each. What an analysis code needs; where it came from no longer matters.
+///
+/// Points of an element: i + 4 j + 16 k at (i,j,k)/3 along its axes (u,v,w) (hex/volume/hexahedron.h).
+#pragma once
+
+#include <hex/base/linear_algebra.h>
+#include <spline/sparse_rows.h>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace spline {
+
+using BezierPoint = Eigen::Vector4d;
+
+/// Tricubic Bezier elements over shared control points. A Bezier point that several elements share is stored
+/// once when the spline was built here; a spline read from a file has 64 points an element.
+struct BezierSpline {
+    std::vector<hex::Vec3> control_points;
+    std::vector<double> weights;  ///< > 0, one a control point; all 1 for a polynomial spline
+    SparseRows rows;              ///< of each Bezier point, over the control points (a row of M T)
+    std::vector<std::array<std::uint32_t, 64>> elements;
+
+    std::vector<std::uint16_t> element_level;  ///< of the hierarchy; 0 when not known
+    std::vector<std::uint32_t> element_cell;   ///< cell in the mesh of that level
+
+    std::size_t element_count() const { return elements.size(); }
+    std::size_t function_count() const { return control_points.size(); }
+    bool rational() const;
+};
+
+/// The extraction of one element: rows of M^T.
+struct ElementExtraction {
+    std::vector<std::uint32_t> functions;              ///< ascending; each has a coefficient that is not zero
+    std::vector<std::array<double, 64>> coefficients;  ///< Bernstein coefficients of each function
+};
+
+/// Gathers the extraction of elements one after the other; holds its working memory. One object a thread.
+class ExtractionGatherer {
+  public:
+    explicit ExtractionGatherer(const BezierSpline& spline) : spline_(spline) {}
+    /// Valid until the next call.
+    const ElementExtraction& operator()(std::size_t element);
+
+  private:
+    const BezierSpline& spline_;
+    ElementExtraction extraction_;
+    std::vector<std::uint32_t> table_;
+};
+
+/// Position (x, y, z) and weight of every Bezier point.
+std::vector<BezierPoint> bezier_points(const BezierSpline& spline);
+
+/// Point of an element at (u, v, w) in [0,1]^3, and its first derivatives.
+struct ElementPoint {
+    hex::Vec3 point;
+    Eigen::Matrix3d jacobian;  ///< column a is the derivative by the a-th parameter
+};
+
+/// `points` as made by `bezier_points`.
+ElementPoint evaluate(const BezierSpline& spline, const std::vector<BezierPoint>& points, std::size_t element,
+                      const hex::Vec3& uvw);
+
+/// The four cubic Bernstein polynomials at t, and their derivatives.
+std::array<double, 4> bernstein(double t);
+std::array<double, 4> bernstein_derivative(double t);
+
+/// Figures that tell whether a spline is sound.
+struct BezierSummary {
+    std::size_t control_points = 0;
+    std::size_t elements = 0;
+    std::size_t functions_min = 0, functions_max = 0;  ///< functions of an element
+    double functions_mean = 0.0;
+    double partition_of_unity_error = 0.0;  ///< largest |sum of coefficients - 1| of a Bezier point
+    double smallest_coefficient = 0.0;
+};
+BezierSummary summarize(const BezierSpline& spline);
+
+}  // namespace spline

@@ -1,0 +1,226 @@
+#include <hex/base/error.h>
+#include <hex/io/number_text.h>
+#include <spline/io/bext.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <string>
+#include <string_view>
+
+namespace spline::io {
+namespace {
+
+using hex::Error;
+using hex::ErrorKind;
+
+std::string read_whole(const std::filesystem::path& path) {
+    std::error_code problem;
+    if (std::filesystem::is_directory(path, problem))
+        throw Error(ErrorKind::bad_input, "is a directory, not a BEXT file", path.string());
+    std::ifstream file(path, std::ios::binary | std::ios::ate);
+    if (!file)
+        throw Error(ErrorKind::bad_input, std::string("cannot be opened (") + std::strerror(errno) + ")",
+                    path.string());
+    std::string text(static_cast<std::size_t>(std::max<std::streamoff>(0, file.tellg())), '\0');
+    file.seekg(0);
+    file.read(text.data(), static_cast<std::streamsize>(text.size()));
+    if (!file) throw Error(ErrorKind::bad_input, "cannot be read", path.string());
+    return text;
+}
+
+std::string quoted(std::string_view word) {
+    std::string text(1, '\'');
+    text.append(word);
+    text += '\'';
+    return text;
+}
+
+/// Words separated by blanks, with their line.
+class Words {
+  public:
+    Words(const std::filesystem::path& path, std::string_view text) : path_(path), text_(text) {}
+
+    bool at_end() {
+        skip_blanks();
+        return at_ == text_.size();
+    }
+    std::string_view next(const char* wanted) {
+        if (at_end()) fail(std::string("the file ends where ") + wanted + " should be");
+        const std::size_t begin = at_;
+        while (at_ < text_.size() && !is_blank(text_[at_])) ++at_;
+        return text_.substr(begin, at_ - begin);
+    }
+    std::size_t count(const char* wanted) {
+        const std::string_view word = next(wanted);
+        const auto value = hex::io::parse_integer(word);
+        if (!value || *value < 0) fail(quoted(word) + " where " + wanted + " should be");
+        return static_cast<std::size_t>(*value);
+    }
+    double real(const char* wanted) {
+        const std::string_view word = next(wanted);
+        const auto value = hex::io::parse_double(word);
+        if (!value) fail(quoted(word) + " where " + wanted + " should be");
+        return *value;
+    }
+    void keyword(const char* word) {
+        const std::string_view found = next(word);
+        if (found != word) fail(quoted(found) + " where " + quoted(word) + " should be");
+    }
+    std::size_t bytes_left() const { return text_.size() - at_; }
+
+    [[noreturn]] void fail(const std::string& what, ErrorKind kind = ErrorKind::bad_input,
+                           const std::string& advice = {}) const {
+        throw Error(kind, what, path_.string() + ":" + std::to_string(line_), advice);
+    }
+
+  private:
+    static bool is_blank(char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r'; }
+    void skip_blanks() {
+        for (; at_ < text_.size() && is_blank(text_[at_]); ++at_) line_ += text_[at_] == '\n';
+    }
+
+    const std::filesystem::path& path_;
+    std::string_view text_;
+    std::size_t at_ = 0;
+    std::size_t line_ = 1;
+};
+
+class Reader {
+  public:
+    Reader(const std::filesystem::path& path, std::string_view text) : words_(path, text) {}
+
+    BezierSpline read() {
+        read_head();
+        while (!words_.at_end()) {
+            const std::string_view word = words_.next("gnode or belem");
+            if (word == "gnode")
+                read_node();
+            else if (word == "belem")
+                read_element();
+            else
+                words_.fail("unknown keyword " + quoted(word), ErrorKind::bad_input,
+                            "gnode and belem are known");
+        }
+        if (spline_.control_points.size() != nodes_)
+            words_.fail("nodeN says " + std::to_string(nodes_) + " control points, there are " +
+                        std::to_string(spline_.control_points.size()));
+        if (spline_.elements.size() != elements_)
+            words_.fail("elemN says " + std::to_string(elements_) + " elements, there are " +
+                        std::to_string(spline_.elements.size()));
+        spline_.element_level.assign(elements_, 0);
+        spline_.element_cell.resize(elements_);
+        for (std::size_t e = 0; e < elements_; ++e) spline_.element_cell[e] = static_cast<std::uint32_t>(e);
+        return std::move(spline_);
+    }
+
+  private:
+    void read_head() {
+        if (words_.at_end()) words_.fail("is empty, not a BEXT file");
+        for (const char* letter : {"B", "E", "X", "T"}) {
+            if (words_.next("B E X T") != letter)
+                words_.fail("is not a BEXT file: it does not start with 'B E X T'");
+        }
+        const std::string_view word = words_.next("type");
+        if (word.starts_with("2"))
+            words_.fail("is BEXT " + std::string(word), ErrorKind::unsupported, "only BEXT 1 can be read");
+        if (word != "type") words_.fail(quoted(word) + " where 'type' should be");
+        const std::string_view type = words_.next("hex");
+        if (type != "hex")
+            words_.fail("elements of type " + quoted(type), ErrorKind::unsupported,
+                        "only type hex can be read");
+        words_.keyword("nodeN");
+        nodes_ = words_.count("the number of control points");
+        words_.keyword("elemN");
+        elements_ = words_.count("the number of elements");
+        // A header that lies must not make us ask for more memory than the file could fill.
+        spline_.control_points.reserve(std::min(nodes_, words_.bytes_left() / 13));
+        spline_.weights.reserve(spline_.control_points.capacity());
+        spline_.elements.reserve(std::min(elements_, words_.bytes_left() / 64));
+    }
+
+    void read_node() {
+        if (!spline_.elements.empty()) words_.fail("gnode after the first belem");
+        hex::Vec3 point;
+        for (double& x : point) x = words_.real("a coordinate");
+        const double weight = words_.real("a weight");
+        if (!(weight > 0)) words_.fail("a weight that is not positive");
+        spline_.control_points.push_back(point);
+        spline_.weights.push_back(weight);
+        if (spline_.control_points.size() > nodes_) words_.fail("more control points than nodeN says");
+    }
+
+    void read_element() {
+        const std::size_t functions = words_.count("the number of functions");
+        for (int a = 0; a < 3; ++a) {
+            if (words_.count("a degree") != 3)
+                words_.fail("elements of another degree than 3", ErrorKind::unsupported);
+        }
+        functions_.clear();
+        for (std::size_t i = 0; i < functions; ++i) {
+            const std::size_t id = words_.count("a control point");
+            if (id >= spline_.control_points.size())
+                words_.fail("control point " + std::to_string(id) + " of " +
+                            std::to_string(spline_.control_points.size()) + " (0-based)");
+            functions_.push_back(static_cast<std::uint32_t>(id));
+        }
+        for (auto& column : columns_) column.clear();
+        for (const std::uint32_t function : functions_) read_row(function);
+
+        std::array<std::uint32_t, 64> points;
+        for (std::size_t p = 0; p < 64; ++p) {
+            auto& column = columns_[p];
+            if (column.empty())
+                words_.fail("element " + std::to_string(spline_.elements.size()) +
+                            " has no coefficient for Bezier point " + std::to_string(p));
+            std::sort(column.begin(), column.end());
+            for (std::size_t i = 0; i < column.size(); ++i) {
+                if (i > 0 && column[i].first == column[i - 1].first)
+                    words_.fail("control point " + std::to_string(column[i].first) + " twice in an element");
+                spline_.rows.columns.push_back(column[i].first);
+                spline_.rows.values.push_back(column[i].second);
+            }
+            points[p] = static_cast<std::uint32_t>(spline_.rows.size());
+            spline_.rows.offsets.push_back(spline_.rows.columns.size());
+        }
+        spline_.elements.push_back(points);
+        if (spline_.elements.size() > elements_) words_.fail("more elements than elemN says");
+    }
+
+    void read_row(std::uint32_t function) {
+        const std::string_view kind = words_.next("s or d");
+        if (kind == "d") {
+            for (auto& column : columns_) {
+                const double value = words_.real("a coefficient");
+                if (value != 0.0) column.emplace_back(function, value);
+            }
+            return;
+        }
+        if (kind != "s") words_.fail(quoted(kind) + " where a row, 's' or 'd', should be");
+        const std::size_t count = words_.count("the number of coefficients");
+        if (count > 64)
+            words_.fail("a row of " + std::to_string(count) + " coefficients; there are 64 Bezier points");
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::size_t column = words_.count("a column");
+            if (column >= 64) words_.fail("column " + std::to_string(column) + " of 64 (0-based)");
+            const double value = words_.real("a coefficient");
+            if (value != 0.0) columns_[column].emplace_back(function, value);
+        }
+    }
+
+    Words words_;
+    BezierSpline spline_;
+    std::size_t nodes_ = 0, elements_ = 0;
+    std::vector<std::uint32_t> functions_;
+    std::array<std::vector<std::pair<std::uint32_t, double>>, 64> columns_;
+};
+
+}  // namespace
+
+BezierSpline read_bext(const std::filesystem::path& path) {
+    const std::string text = read_whole(path);
+    return Reader(path, text).read();
+}
+
+}  // namespace spline::io
