@@ -1,7 +1,9 @@
 #include "support/test_files.h"
 
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <fstream>
 #include <sstream>
 
@@ -14,6 +16,16 @@ std::filesystem::path reference_data() {
 
 std::filesystem::path own_data() {
     return std::filesystem::path(HEXSPLINE_SOURCE_DIR) / "data";
+}
+
+int run_python(const std::string& script, const std::vector<std::string>& arguments) {
+    const std::string python = HEXSPLINE_PYTHON;
+    if (python.empty() || std::system((python + " -c 'import vtkmodules' 2>/dev/null").c_str()) != 0)
+        return -1;
+    std::string command = python + " '" + HEXSPLINE_SOURCE_DIR + "/tests/" + script + "'";
+    for (const std::string& argument : arguments) command += " '" + argument + "'";
+    const int status = std::system(command.c_str());
+    return WIFEXITED(status) ? WEXITSTATUS(status) : 255;
 }
 
 TemporaryFolder::TemporaryFolder() {

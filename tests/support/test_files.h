@@ -6,6 +6,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 namespace hex::test {
 
@@ -15,6 +16,10 @@ std::filesystem::path reference_data();
 
 /// The project's own data/ folder.
 std::filesystem::path own_data();
+
+/// Runs a Python script of tests/ (path relative to it) with words as arguments, with the interpreter that
+/// has VTK. Returns its exit code, or -1 when there is no such interpreter.
+int run_python(const std::string& script, const std::vector<std::string>& arguments);
 
 /// A fresh folder that is removed at the end of its life.
 class TemporaryFolder {
