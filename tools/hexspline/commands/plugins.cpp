@@ -8,6 +8,7 @@
 #include <hex/map/map.h>
 #include <hex/polycube/polycube.h>
 #include <hex/segment/segment.h>
+#include <spline/spline.h>
 
 #include <iostream>
 
@@ -23,6 +24,7 @@ std::vector<hex::MethodInfo> all_methods() {
     add(hex::polycube_builders().list());
     add(hex::mappers().list());
     add(hex::improvers().list());
+    add(spline::spline_builders().list());
     return methods;
 }
 

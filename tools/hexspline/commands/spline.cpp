@@ -1,0 +1,208 @@
+/// Sample runs:
+///   hexspline spline -i rod_hex.vtk -S -s 2 -l -o rod_hex.BEXT
+///   hexspline spline -i rod_hex.vtk -S -s 2 -l 2
+///   hexspline spline -i rod_hex.vtk -o rod_hex -S -s 2 -g 1
+
+#include "hexspline/command.h"
+#include "hexspline/inputs.h"
+
+#include <hex/base/error.h>
+#include <hex/io/list_file.h>
+#include <spline/io/bext.h>
+#include <spline/io/bezier_vtu.h>
+#include <spline/io/control_mesh_file.h>
+#include <spline/spline.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+
+namespace cli {
+namespace {
+
+/// Value of -l without a number.
+constexpr int all_levels = -1;
+
+enum class Format { bext, vtu };
+
+std::string lower_case(std::string text) {
+    std::transform(text.begin(), text.end(), text.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
+}
+
+/// --format, else the extension of the output; what is no extension of ours means BEXT.
+Format output_format(const CommandLine& line) {
+    if (line.given("format")) {
+        const auto name = line.get<std::string>("format");
+        if (name == "bext") return Format::bext;
+        if (name == "vtu") return Format::vtu;
+        throw hex::Error(hex::ErrorKind::usage, "unknown --format '" + name + "'", {}, "known: bext, vtu");
+    }
+    if (!line.given("output")) return Format::bext;
+    const std::string extension = lower_case(line.output().extension().string());
+    if (extension == ".vtu") return Format::vtu;
+    constexpr std::array meshes = {".vtk", ".k", ".key", ".mesh", ".stl", ".obj", ".off", ".ply", ".json"};
+    if (std::find(meshes.begin(), meshes.end(), extension) != meshes.end())
+        throw hex::Error(hex::ErrorKind::usage, "a spline cannot be written as " + extension,
+                         line.output().string(), "use .BEXT or .vtu, or say --format");
+    return Format::bext;
+}
+
+/// The output that was named, or one beside the input: rod_hex.vtk gives rod_hex_BEXT.txt, as the paper has
+/// it.
+std::filesystem::path output_path(const CommandLine& line, Format format) {
+    if (line.given("output")) return line.output();
+    std::filesystem::path path = line.input();
+    path.replace_filename(path.stem().string() + (format == Format::vtu ? "_spline.vtu" : "_BEXT.txt"));
+    return path;
+}
+
+/// A file named by an option, else one of that name beside the input.
+std::filesystem::path beside_input(const CommandLine& line, const std::string& option, const char* name) {
+    if (line.given(option)) return line.get<std::string>(option);
+    std::filesystem::path path = line.input();
+    return path.replace_filename(name);
+}
+
+spline::SplineOptions options_of(const CommandLine& line) {
+    spline::SplineOptions options;
+    options.method = line.get<std::string>("method");
+    switch (line.get<int>("sharp")) {
+        case 0:
+            break;
+        case 1:
+            options.features = hex::FeatureSource::angle;
+            break;
+        case 2: {
+            options.features = hex::FeatureSource::list;
+            const auto path = beside_input(line, "sharp-file", "sharp.txt");
+            options.feature_vertices = hex::io::read_sharp_vertices(path);
+            options.feature_origin = path.string();
+            break;
+        }
+        default:
+            throw hex::Error(hex::ErrorKind::usage, "-s must be 0 (none), 1 (by angle) or 2 (from file)");
+    }
+    options.feature_cosine = line.get<double>("tolerance");
+    line.require_range("tolerance", options.feature_cosine, -1.0, 1.0);
+    options.global_refinements = line.get<int>("global");
+    line.require_range("global", options.global_refinements, 0, 10);
+    if (line.given("local")) {
+        const auto path = beside_input(line, "refine-file", "lev_rfid.txt");
+        options.refinement = hex::io::read_refinement(path);
+        options.refinement_origin = path.string();
+        const int levels = line.get<int>("local");
+        if (levels != all_levels) {
+            line.require_range("local", levels, 0, 20);
+            options.levels = levels;
+        }
+    } else if (line.given("refine-file")) {
+        throw hex::Error(hex::ErrorKind::usage, "--refine-file has no effect without -l");
+    }
+    options.closure = !line.is_set("no-closure");
+    options.force = line.is_set("force");
+    return options;
+}
+
+Json to_json(const spline::SplineReport& report) {
+    Json valences = Json::object();
+    for (const auto& [valence, count] : report.extraordinary_edges) valences[std::to_string(valence)] = count;
+    Json levels = Json::array();
+    for (const auto& level : report.levels)
+        levels.push_back({{"elements", level.elements},
+                          {"active_elements", level.active_elements},
+                          {"active_functions", level.active_functions},
+                          {"refined", level.refined},
+                          {"added_by_closure", level.added_by_closure}});
+    const auto& summary = report.summary;
+    return {
+        {"method", report.method},
+        {"input_vertices", report.input_vertices},
+        {"input_elements", report.input_elements},
+        {"control_points", summary.control_points},
+        {"elements", summary.elements},
+        {"boundary_elements", report.boundary_elements},
+        {"irregular_elements", report.irregular_elements},
+        {"regular_elements", report.regular_elements},
+        {"refinable_elements", report.refinable_elements},
+        {"extraordinary_edges", valences},
+        {"sharp_edges", report.sharp_edges},
+        {"crease_vertices", report.crease_vertices},
+        {"corner_vertices", report.corner_vertices},
+        {"levels", levels},
+        {"functions_per_element",
+         {{"min", summary.functions_min}, {"mean", summary.functions_mean}, {"max", summary.functions_max}}},
+        {"partition_of_unity_error", summary.partition_of_unity_error},
+        {"smallest_coefficient", summary.smallest_coefficient},
+        {"diagnostics", cli::to_json(report.diagnostics)}};
+}
+
+int run(CommandLine& line) {
+    const Format format = output_format(line);
+    const auto path = output_path(line, format);
+    const spline::SplineOptions options = options_of(line);
+    const hex::HexMesh mesh = load_hexahedra(line, line.input());
+    spline::SplineResult result;
+    try {
+        result = spline::build(mesh, options, line.context());
+    } catch (const hex::Error& error) {
+        throw error.located(line.input().string());
+    }
+    line.log(result.report.diagnostics, line.input().string());
+
+    if (format == Format::vtu)
+        spline::io::write_bezier_vtu(path, result.spline);
+    else
+        spline::io::write_bext(path, result.spline, line.context());
+    line.info(path.string() + ": " + std::to_string(result.spline.function_count()) + " control points, " +
+              std::to_string(result.spline.element_count()) + " elements");
+    Json report = to_json(result.report);
+    report["output"] = path.string();
+    if (line.given("control-mesh")) {
+        Json files = Json::array();
+        for (const auto& file :
+             spline::io::write_control_meshes(line.get<std::string>("control-mesh"), result.levels))
+            files.push_back(file.string());
+        report["control_meshes"] = std::move(files);
+    }
+    line.write_report(report);
+    return 0;
+}
+
+void describe(CommandLine& line) {
+    line.add_input("hexahedral mesh");
+    line.add_output("spline: .vtu, else BEXT 1; default: INPUT_BEXT.txt beside the input", false);
+    line.add_switch("spline,S", "accepted, as the paper writes it");
+    line.add("sharp,s", value<int>("0|1|2")->default_value(0),
+             "sharp features: none, by angle, from --sharp-file");
+    line.add("tolerance,t", value<double>("COS")->default_value(0.8, "0.8"),
+             "cosine of the angle between normals below which an edge is sharp");
+    line.add("sharp-file", value<std::string>(),
+             "vertices of sharp features (default: sharp.txt beside the input)");
+    line.add("global,g", value<int>()->default_value(0), "refine all elements so many times, before -l");
+    line.add_optional_integer("local,l", all_levels,
+                              "refine locally: all levels of --refine-file, or so many");
+    line.add("refine-file", value<std::string>(),
+             "lines 'level element' (default: lev_rfid.txt beside the input)");
+    line.add_switch("no-closure",
+                    "refine exactly what is listed, though the spline may not be continuous then");
+    line.add("format", value<std::string>("bext|vtu"), "format of the output, whatever its extension");
+    line.add("control-mesh", value<std::string>("PREFIX"),
+             "also write PREFIX_hmesh<level>_CM.vtk of every level");
+    line.add_switch("force", "go on with inverted elements");
+    line.add("method", value<std::string>("NAME")->default_value("thspline3d"), "see hexspline plugins");
+}
+
+const RegisterCommand registered(
+    {.name = "spline",
+     .order = 50,
+     .summary = "build a truncated hierarchical spline and its Bezier extraction",
+     .sample_runs = {"hexspline spline -i rod_hex.vtk -S -s 2 -l -o rod_hex.BEXT",
+                     "hexspline spline -i rod_hex.vtk -S -s 2 -l 2",
+                     "hexspline spline -i rod_hex.vtk -o rod_hex -S -s 2 -g 1"},
+     .describe = describe,
+     .run = run});
+
+}  // namespace
+}  // namespace cli
