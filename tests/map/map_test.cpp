@@ -254,6 +254,16 @@ TEST(MapErrors, QuadWithoutPatch) {
     expect_contains(message_of(make_triangle_mesh(test::box_surface(1, 1, 1, 3)), blocks), "block 0");
 }
 
+TEST(MapErrors, QuadAcrossItsPatch) {
+    // The four corners of a side in the order of a bow tie.
+    HexMesh blocks = test::grid(1, 1, 1);
+    blocks.set_position(VertexId(4), Vec3(1, 0, 1));
+    blocks.set_position(VertexId(5), Vec3(0, 0, 1));
+    const std::string message = message_of(make_triangle_mesh(test::box_surface(1, 1, 1, 3)), blocks);
+    expect_contains(message, "crosswise");
+    expect_contains(message, "block 0");
+}
+
 TEST(MapErrors, PatchWithoutQuad) {
     // Two boxes as surface, blocks for one of them.
     PolygonSoup soup = test::box_surface(1, 1, 1, 2);
