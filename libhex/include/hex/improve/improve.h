@@ -29,15 +29,18 @@ struct ImproveOptions {
     std::string method = "smooth";
     /// Layers (pillow) or sweeps (the others), >= 0. -1: the method's own default, 1 layer or 50 sweeps.
     int count = -1;
-    /// Share of the computed move that is made, in (0, 1]. Paper: 0.01.
-    double step = 0.01;
+    /// In (0, 1]. laplace, smooth: share of the computed move that is made. optimize: first step of the line
+    /// search, as a share of the mean length of the edges at the vertex. 0: the method's own default, 1 for
+    /// laplace, 0.01 (paper) for the others. pillow has no use for it.
+    double step = 0.0;
     FeatureSource features = FeatureSource::none;
     /// For FeatureSource::angle: cosine below which an edge between two boundary quads is sharp, in [-1, 1].
     double feature_cosine = 0.8;
     /// For FeatureSource::list: 0-based vertices of the input mesh.
     std::vector<std::int64_t> feature_vertices;
-    /// Boundary vertices are kept on this surface (the input's own patches, when its triangles carry part
-    /// ids); none: they move tangentially only.
+    /// smooth, optimize: boundary vertices are brought and kept onto this surface, each on the smooth region,
+    /// sharp curve (dihedral angle by `feature_cosine`) or corner of it that it belongs to; none: they move
+    /// tangentially only, and so drift a little.
     const TriangleMesh* surface = nullptr;
 };
 
@@ -64,6 +67,11 @@ struct ImproveResult {
     ImproveReport report;
 };
 
+/// A method of the stage. `laplace`, `smooth` and `optimize` keep a move of a vertex only if the smallest
+/// scaled Jacobian around it does not fall (`optimize`: only if the number of inverted elements around it, or,
+/// that being equal, the smallest scaled Jacobian improves), so neither the number of inverted elements nor
+/// the minimum of the mesh ever gets worse, but for bringing boundary vertices onto `surface`, which only
+/// promises to invert nothing. `pillow` never inverts an element that was not.
 class Improver {
   public:
     virtual ~Improver() = default;

@@ -1,0 +1,38 @@
+#include <hex/base/parallel.h>
+#include <hex/improve/improve.h>
+
+namespace hex {
+namespace {
+
+void check_options(const HexMesh& mesh, const ImproveOptions& options) {
+    const auto refuse = [](const std::string& what, const std::string& advice) {
+        throw Error(ErrorKind::usage, what, {}, advice);
+    };
+    if (mesh.empty())
+        throw Error(ErrorKind::bad_input, "the mesh has no hexahedra", {}, "give a mesh with at least one");
+    if (options.count < -1) refuse("the number of layers or sweeps is negative", "give 0 or more");
+    if (!(options.step >= 0.0 && options.step <= 1.0))
+        refuse("the step is not in (0, 1]", "the paper's models take 0.001 to 0.01");
+    if (!(options.feature_cosine >= -1.0 && options.feature_cosine <= 1.0))
+        refuse("the cosine of the feature angle is not in [-1, 1]", "the paper's rod takes 0.8");
+}
+
+}  // namespace
+
+Registry<Improver>& improvers() {
+    static Registry<Improver> registry("improve");
+    return registry;
+}
+
+ImproveResult improve(const HexMesh& mesh, const ImproveOptions& options, const Context& context) {
+    const auto improver = improvers().make(options.method);
+    check_options(mesh, options);
+    const QualitySummary before = summarize(mesh, context);
+    ImproveResult result = with_threads(context, [&] { return improver->improve(mesh, options, context); });
+    result.report.method = options.method;
+    result.report.before = before;
+    result.report.after = summarize(result.mesh, context);
+    return result;
+}
+
+}  // namespace hex
