@@ -1,0 +1,139 @@
+/// Sample runs:
+///   hexspline improve -i rod_hex.vtk -Q -m 1 -n 1 -o rod_hex_pillow.vtk
+///   hexspline improve -i rod_hex_pillow.vtk -Q -m 2 -p 0.001 -n 50 -s 2 -o rod_hex_pillow_smooth.vtk
+///   hexspline improve -i part.vtk -m smooth -s 1 -t 0.8 --surface part_segment.k -o part_smooth.vtk
+
+#include "hexspline/command.h"
+#include "hexspline/inputs.h"
+
+#include <hex/base/error.h>
+#include <hex/improve/improve.h>
+#include <hex/io/hex_file.h>
+#include <hex/io/list_file.h>
+
+#include <array>
+#include <optional>
+
+namespace cli {
+namespace {
+
+void describe(CommandLine& line) {
+    line.add_input("hexahedral mesh");
+    line.add_output("improved mesh");
+    line.add_switch("Quality,Q", "accepted and without effect, as in the paper's command lines");
+    line.add("method,m", value<std::string>("NAME")->default_value("smooth"),
+             "laplace, pillow, smooth, optimize (or 0, 1, 2, 3 as in the paper), or a plug-in's");
+    line.add("count,n", value<int>(), "layers of pillow (1), sweeps of the others (50)");
+    line.add("step,p", value<double>(),
+             "step in (0, 1]: share of the move that is made; optimize: the first step (0.01; laplace: 1)");
+    line.add("sharp,s", value<int>("0|1|2")->default_value(0),
+             "sharp features: none, by angle, or from the sharp file");
+    line.add("tolerance,t", value<double>()->default_value(0.8),
+             "cosine of the angle between normals below which an edge is sharp, for -s 1 and --surface");
+    line.add("sharp-file", value<std::string>(),
+             "for -s 2: its last integer of each line is a vertex (default sharp.txt beside the input)");
+    line.add("surface", value<std::string>(), "closed surface on which boundary vertices are kept");
+}
+
+/// The paper's numbers of the methods, and names.
+std::string method_of(const std::string& text) {
+    constexpr std::array<const char*, 4> numbered = {"laplace", "pillow", "smooth", "optimize"};
+    if (text.size() == 1 && text[0] >= '0' && text[0] <= '3')
+        return numbered[static_cast<std::size_t>(text[0] - '0')];
+    return text;
+}
+
+hex::ImproveOptions options_of(const CommandLine& line) {
+    hex::ImproveOptions options;
+    options.method = method_of(line.get<std::string>("method"));
+    if (line.given("count")) {
+        options.count = line.get<int>("count");
+        line.require_range("count", options.count, 0, 1e9);
+    }
+    if (line.given("step")) {
+        options.step = line.get<double>("step");
+        line.require_range("step", options.step, 1e-12, 1.0);
+    }
+    options.feature_cosine = line.get<double>("tolerance");
+    line.require_range("tolerance", options.feature_cosine, -1.0, 1.0);
+    const int sharp = line.get<int>("sharp");
+    line.require_range("sharp", sharp, 0, 2);
+    if (sharp == 1) options.features = hex::FeatureSource::angle;
+    if (sharp == 2) options.features = hex::FeatureSource::list;
+    return options;
+}
+
+std::filesystem::path sharp_file(const CommandLine& line) {
+    if (line.given("sharp-file")) return line.get<std::string>("sharp-file");
+    return line.input().parent_path() / "sharp.txt";
+}
+
+Json quality_json(const hex::QualitySummary& summary) {
+    return {{"vertices", summary.vertices},
+            {"hexes", summary.cells},
+            {"min_scaled_jacobian", summary.min},
+            {"mean_scaled_jacobian", summary.mean},
+            {"inverted", summary.inverted}};
+}
+
+Json report_of(const hex::ImproveReport& report) {
+    Json history = Json::array();
+    for (const auto& record : report.history)
+        history.push_back({{"sweep", record.sweep},
+                           {"moved", record.moved},
+                           {"min_scaled_jacobian", record.min},
+                           {"mean_scaled_jacobian", record.mean},
+                           {"inverted", record.inverted}});
+    return {{"method", report.method},
+            {"before", quality_json(report.before)},
+            {"after", quality_json(report.after)},
+            {"sharp_edges", report.sharp_edges},
+            {"history", history},
+            {"diagnostics", to_json(report.diagnostics)}};
+}
+
+void tell(const CommandLine& line, const hex::ImproveReport& report) {
+    const auto text = [](const hex::QualitySummary& summary) {
+        return std::to_string(summary.cells) + " hexes, scaled Jacobian min " + std::to_string(summary.min) +
+               " mean " + std::to_string(summary.mean) + ", " + std::to_string(summary.inverted) +
+               " inverted";
+    };
+    line.info("before: " + text(report.before));
+    line.info("after " + std::to_string(report.history.size()) + " sweeps or layers of " + report.method +
+              ": " + text(report.after));
+    line.log(report.diagnostics);
+}
+
+int run(CommandLine& line) {
+    hex::ImproveOptions options = options_of(line);
+    if (!hex::improvers().contains(options.method)) (void)hex::improvers().make(options.method);  // throws
+    const hex::HexMesh mesh = load_hexahedra(line, line.input());
+    if (options.features == hex::FeatureSource::list)
+        options.feature_vertices = hex::io::read_sharp_vertices(sharp_file(line));
+    std::optional<hex::TriangleMesh> surface;
+    if (line.given("surface")) {
+        surface = load_triangles(line, line.get<std::string>("surface"));
+        options.surface = &*surface;
+    }
+    const hex::ImproveResult result = hex::improve(mesh, options, line.context());
+    hex::io::write_hex_mesh(line.output(), result.mesh);
+    tell(line, result.report);
+    line.write_report(report_of(result.report));
+    return 0;
+}
+
+const RegisterCommand registered(
+    {.name = "improve",
+     .order = 40,
+     .summary = "make a hexahedral mesh better: pillow, smooth, optimize",
+     .description = "Vertices move only where the smallest scaled Jacobian around them does not fall.",
+     .sample_runs = {"hexspline improve -i rod_hex.vtk -Q -m 1 -n 1 -o rod_hex_pillow.vtk",
+                     "hexspline improve -i rod_hex_pillow.vtk -Q -m 2 -p 0.001 -n 50 -s 2 -o "
+                     "rod_hex_pillow_smooth.vtk",
+                     "hexspline improve -i part.vtk -m smooth -s 1 -t 0.8 --surface part_segment.k -o "
+                     "part_smooth.vtk"},
+     .describe = describe,
+     .run = run});
+
+}  // namespace
+}  // namespace cli
