@@ -89,6 +89,16 @@ TEST(PolygonSoup, TwoSheetsThatTouchInAVertexAreRejected) {
     EXPECT_NE(message_of(soup).find("touches itself at vertex 0"), std::string::npos);
 }
 
+TEST(PolygonSoup, TwoFacesThatShareNeighbouringEdgesAreRejected) {
+    // A tetrahedron with a vertex put on edge 0-1, which then has two faces only.
+    auto points = tetrahedron_points;
+    points.emplace_back(0.5, 0, 0);
+    const auto soup = soup_of(points, {{0, 2, 1, 4}, {0, 4, 1, 3}, {1, 2, 3}, {0, 3, 2}});
+    EXPECT_NE(message_of(soup).find("neighbouring edges at vertices 4"), std::string::npos);
+    // On a boundary two faces at a vertex are nothing unusual.
+    EXPECT_EQ(message_of(soup_of(tetrahedron_points, {{0, 2, 1}, {0, 1, 3}}), {.closed = false}), "");
+}
+
 TEST(PolygonSoup, AnOpenSurfacePassesWhenItMayBeOpen) {
     const auto soup = soup_of(tetrahedron_points, {{0, 2, 1}, {0, 1, 3}, {1, 2, 3}});
     EXPECT_EQ(message_of(soup, {.closed = false}), "");

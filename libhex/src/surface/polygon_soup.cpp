@@ -135,6 +135,28 @@ void check_vertices(const PolygonSoup& soup, const std::vector<EdgeUse>& uses) {
     }
 }
 
+/// An inner vertex with two faces only: they share two neighbouring edges, and any diagonal that cuts the
+/// vertex off would lie in both, an edge with four triangles.
+void check_valences(const PolygonSoup& soup, const std::vector<EdgeUse>& uses) {
+    std::vector<Index> faces(soup.points.size(), 0), edges(soup.points.size(), 0);
+    for (const Index v : soup.corners) ++faces[v];
+    for (std::size_t i = 0; i < uses.size(); ++i) {
+        if (i > 0 && uses[i].low == uses[i - 1].low && uses[i].high == uses[i - 1].high) continue;
+        ++edges[uses[i].low];
+        ++edges[uses[i].high];
+    }
+    std::vector<std::int64_t> doublets;
+    for (std::size_t v = 0; v < faces.size(); ++v) {
+        if (faces[v] == 2 && edges[v] == 2) doublets.push_back(static_cast<std::int64_t>(v));
+    }
+    if (!doublets.empty())
+        reject(
+            "the surface is not manifold once triangulated: two faces share two neighbouring edges at "
+            "vertices " +
+                list_ids(doublets),
+            "remove these vertices");
+}
+
 template <class Mesh>
 PolygonSoup soup_of(const Mesh& mesh) {
     PolygonSoup soup;
@@ -162,6 +184,7 @@ PolyMesh make_poly_mesh(const PolygonSoup& soup, const SurfaceRequirements& requ
     const auto uses = sorted_edge_uses(soup);
     check_edges(uses, requirements);
     check_vertices(soup, uses);
+    check_valences(soup, uses);
 
     PolyMesh mesh;
     mesh.reserve(soup.points.size(), uses.size() / 2, soup.size());

@@ -35,8 +35,9 @@ struct SurfaceRequirements {
 
 /// Polygon mesh of a soup; vertex and face indices are kept.
 /// Throws Error{bad_input} naming the place (0-based vertex and polygon ids) for: no faces, degenerate
-/// polygons (a vertex twice), edges with more than two faces, neighbours oriented against each other,
-/// vertices where the surface only touches itself, and boundary edges when `requirements.closed`.
+/// polygons (a vertex twice), edges with more than two faces, neighbours oriented against each other, inner
+/// vertices with two faces only, vertices where the surface only touches itself, and boundary edges when
+/// `requirements.closed`.
 PolyMesh make_poly_mesh(const PolygonSoup& soup, const SurfaceRequirements& requirements = {});
 
 /// Triangles of a polygon mesh by CGAL's constrained hole-free triangulation of each face
