@@ -360,9 +360,9 @@ def make_blob():
         return x * (1 + growth * abs(x))
 
     def bend(i, j, k):
-        x, y, z = stretched(i, 1.0, 0.22), stretched(j, 0.5, 0.35), stretched(k, 0.5, 0.35)
-        return (20 * (x + 0.06 * y * y - 0.07 * z), 20 * (y + 0.06 * x * z + 0.05 * x * x),
-                20 * (z + 0.08 * math.sin(1.3 * x) + 0.03 * x * y))
+        x, y, z = stretched(i, 1.0, 0.06), stretched(j, 0.5, 0.08), stretched(k, 0.5, 0.08)
+        return (20 * (x + 0.03 * y * y - 0.036 * z), 20 * (y + 0.03 * x * z + 0.024 * x * x),
+                20 * (z + 0.042 * math.sin(1.3 * x) + 0.015 * x * y))
 
     control = np.array([bend(*grid) for grid in corners])
     quads = boundary_faces(core)
@@ -382,7 +382,7 @@ def make_blob():
     inner = []
     for v in range(len(control)):
         around = np.mean([centres[c] for c in range(len(core)) if v in core[c]], axis=0)
-        inner.append(outer[v] + 0.42 * (around - outer[v]))
+        inner.append(outer[v] + 0.65 * (around - outer[v]))
     shift = len(control)
     blocks = [tuple(shift + v for v in c) for c in core]
     blocks += [tuple(shift + v for v in quad) + tuple(quad) for quad in quads]
