@@ -27,7 +27,7 @@ def options_in_help(command):
     """`--long` or `-s, --long` of each option that `hexspline COMMAND --help` lists."""
     found = set()
     for line in run(command, '--help').splitlines():
-        match = re.match(r'\s+(?:-(\w) \[ --([\w-]+) \]|--([\w-]+)|-(\w))(?:\s|$)', line)
+        match = re.match(r'  (?:-(\w) \[ --([\w-]+) \]|--([\w-]+)|-(\w))(?:\s|$)', line)
         if match:
             short, long = match[1] or match[4], match[2] or match[3]
             found.add(', '.join(([f'-{short}'] if short else []) + ([f'--{long}'] if long else [])))

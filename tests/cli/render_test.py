@@ -63,7 +63,7 @@ class Render(unittest.TestCase):
         self.assertLess(proportion('--cut', '1,0,0,0.4'), 1.5)    # its big eye is round
 
     def test_the_same_picture_comes_out_twice(self):
-        self.assertEqual(draw(DATA / 'rod/rod_tri.k'), draw(DATA / 'rod/rod_tri.k'))
+        self.assertEqual(draw(DATA / 'rod/rod_blocks.k'), draw(DATA / 'rod/rod_blocks.k'))
 
 
 if __name__ == '__main__':
