@@ -2,8 +2,8 @@
 /// Blending functions on an unstructured hexahedral mesh: the extraction operator M with Q = M P, where P are
 /// the control points of the mesh and Q the Bezier points of its elements.
 ///
-/// One rule set serves every element, regular or not. Weights of a body point of a cell, next to its corner c:
-/// 8/27 at c, 4/27 at the three neighbours, 2/27, 1/27. Weights of a point of a boundary quad, next to its
+/// One rule set serves every element, regular or not. Weights of a body point of a cell, next to its corner
+/// c: 8/27 at c, 4/27 at the three neighbours, 2/27, 1/27. Weights of a point of a boundary quad, next to its
 /// corner: 4/9, 2/9 twice, 1/9. Sources: Wei, Zhang, Hughes: Truncated hierarchical tricubic C0 spline
 /// construction on unstructured hexahedral meshes, 2017; paper, Algorithms "Blending Functions".
 ///  - body point: the cell's;

@@ -68,9 +68,9 @@ struct ImproveResult {
 };
 
 /// A method of the stage. `laplace`, `smooth` and `optimize` keep a move of a vertex only if the smallest
-/// scaled Jacobian around it does not fall (`optimize`: only if the number of inverted elements around it, or,
-/// that being equal, the smallest scaled Jacobian improves), so neither the number of inverted elements nor
-/// the minimum of the mesh ever gets worse, but for bringing boundary vertices onto `surface`, which only
+/// scaled Jacobian around it does not fall (`optimize`: only if the number of inverted elements around it,
+/// or, that being equal, the smallest scaled Jacobian improves), so neither the number of inverted elements
+/// nor the minimum of the mesh ever gets worse, but for bringing boundary vertices onto `surface`, which only
 /// promises to invert nothing. `pillow` never inverts an element that was not.
 class Improver {
   public:

@@ -14,9 +14,8 @@ namespace hex {
 /// A connected component, through shared edges, of triangles of equal label.
 struct LabelChart {
     int label = 0;
-    std::vector<int> triangles;  ///< ascending
-    std::vector<int>
-        boundaries;  ///< indices into LabelCharts::boundaries
+    std::vector<int> triangles;    ///< ascending
+    std::vector<int> boundaries;   ///< indices into LabelCharts::boundaries
     int euler_characteristic = 0;  ///< V - E + F; 1 for a disk
 };
 
