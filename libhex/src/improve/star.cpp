@@ -2,6 +2,9 @@
 
 #include "volume/counting_rows.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace hex::improving {
 namespace {
 
@@ -41,10 +44,6 @@ Vec3 corner_of(const std::array<Vector<Lanes>, 8>& corners, std::size_t i, int l
 
 /// A scaled determinant of three vectors and its gradient. Each vector is known to change by `rate` times the
 /// displacement of the vertex.
-struct Term {
-    double value;
-    Vec3 gradient;
-};
 Term term(const std::array<Vec3, 3>& axis, const std::array<double, 3>& rate) {
     const std::array<Vec3, 3> cross = {axis[1].cross(axis[2]), axis[2].cross(axis[0]),
                                        axis[0].cross(axis[1])};
@@ -72,19 +71,35 @@ std::array<Term, 5> moving_terms(const std::array<Vec3, 8>& p) {
             term({p[7] - p[4], p[5] - p[4], p[0] - p[4]}, third), term(centre, all)};
 }
 
-/// Volume of the trilinear hexahedron: the integral of its Jacobian determinant, which is the mean over both
-/// ways of cutting each face into triangles.
-double volume(const std::array<Vec3, 8>& p) {
-    const auto determinant = [&](std::size_t a, std::size_t b, std::size_t c) {
-        return (p[a] - p[0]).dot((p[b] - p[0]).cross(p[c] - p[0]));
+/// Volume of the trilinear hexahedron, the integral of its Jacobian determinant, by three determinants
+/// (J. Grandy, Efficient computation of volume of hexahedral cells, UCRL-ID-128886, 1997).
+Lanes volume(const std::array<Vector<Lanes>, 8>& p) {
+    const auto from = [&](std::size_t a, std::size_t b) { return difference<Lanes>(p[b], p[a]); };
+    const auto sum = [](const Vector<Lanes>& a, const Vector<Lanes>& b) {
+        return Vector<Lanes>{a.x + b.x, a.y + b.y, a.z + b.z};
     };
-    double sum = 0.0;
-    for (const auto& face : hexahedron::face_corners) {
-        const auto a = static_cast<std::size_t>(face[0]), b = static_cast<std::size_t>(face[1]);
-        const auto c = static_cast<std::size_t>(face[2]), d = static_cast<std::size_t>(face[3]);
-        sum += determinant(a, b, c) + determinant(a, c, d) + determinant(a, b, d) + determinant(b, c, d);
+    const Lanes twelvefold =
+        quality::determinant<Lanes>(sum(from(1, 3), from(2, 7)), from(3, 6), from(0, 2)) +
+        quality::determinant<Lanes>(sum(from(3, 4), from(7, 5)), from(4, 6), from(0, 7)) +
+        quality::determinant<Lanes>(sum(from(4, 1), from(5, 2)), from(1, 6), from(0, 5));
+    return twelvefold / 12.0;
+}
+
+/// The point nearest to the origin of the convex hull of some vectors, by Gilbert's algorithm: where it is
+/// not zero, it is the direction along which the smallest of the functions with these gradients rises
+/// fastest.
+Vec3 nearest_of_hull(const std::vector<Vec3>& vectors) {
+    Vec3 point = vectors.front();
+    for (int i = 0; i < 60; ++i) {
+        const auto lowest =
+            std::min_element(vectors.begin(), vectors.end(),
+                             [&](const Vec3& a, const Vec3& b) { return a.dot(point) < b.dot(point); });
+        const Vec3 step = *lowest - point;
+        const double gain = -step.dot(point);
+        if (!(gain > 1e-6 * point.squaredNorm())) break;
+        point += std::min(1.0, gain / step.squaredNorm()) * step;
     }
-    return sum / 12.0;
+    return point;
 }
 
 }  // namespace
@@ -192,49 +207,65 @@ void Star::store(const Vec3& p, std::span<double> values) const {
     }
 }
 
-Vec3 Star::ascent_direction(const Vec3& p, double softness) const {
-    // Two passes over the cells: the minimum first, so that the exponentials are in range.
-    double smallest = 1.0;
-    const Vector<Lanes> point = broadcast(p);
-    for (std::size_t b = 0; b < block_count_; ++b)
-        smallest = std::min(smallest, moving(blocks_[b], point).minCoeff());
-    Vec3 direction = Vec3::Zero();
+void Star::compute_terms(const Vec3& p) {
+    terms_.clear();
+    lowest_term_ = 1.0;
     for (std::size_t b = 0; b < block_count_; ++b) {
         for (int lane = 0; lane < blocks_[b].count; ++lane) {
             std::array<Vec3, 8> corners;
             corners[0] = p;
             for (std::size_t i = 1; i < 8; ++i) corners[i] = corner_of(blocks_[b].corners, i, lane);
             for (const Term& t : moving_terms(corners)) {
-                const double rise = (t.value - smallest) / softness;
-                if (rise < 30.0) direction += std::exp(-rise) * t.gradient;
+                terms_.push_back(t);
+                lowest_term_ = std::min(lowest_term_, t.value);
             }
         }
+    }
+}
+
+Vec3 Star::weighted_ascent(double softness) const {
+    Vec3 direction = Vec3::Zero();
+    for (const Term& t : terms_) {
+        const double rise = (t.value - lowest_term_) / softness;
+        if (rise < 30.0) direction += std::exp(-rise) * t.gradient;
     }
     return direction;
 }
 
+Vec3 Star::steepest_ascent(double range, const std::function<Vec3(const Vec3&)>& allowed) {
+    gradients_.clear();
+    for (const Term& t : terms_)
+        if (t.value <= lowest_term_ + range) gradients_.push_back(allowed(t.gradient));
+    return gradients_.empty() ? Vec3(Vec3::Zero()) : nearest_of_hull(gradients_);
+}
+
 Vec3 Star::volume_centre(const Vec3& p) const {
+    const Vector<Lanes> point = broadcast(p);
     Vec3 weighted = Vec3::Zero();
     Vec3 plain = Vec3::Zero();
-    double sum = 0.0;
-    double sum_of_sizes = 0.0;
+    double total = 0.0;
+    double total_of_sizes = 0.0;
     for (std::size_t b = 0; b < block_count_; ++b) {
+        std::array<Vector<Lanes>, 8> corners = blocks_[b].corners;
+        corners[0] = point;
+        const Lanes volumes = volume(corners);
+        Vector<Lanes> sum = corners[0];
+        for (std::size_t i = 1; i < 8; ++i) {
+            sum.x += corners[i].x;
+            sum.y += corners[i].y;
+            sum.z += corners[i].z;
+        }
         for (int lane = 0; lane < blocks_[b].count; ++lane) {
-            std::array<Vec3, 8> corners;
-            corners[0] = p;
-            for (std::size_t i = 1; i < 8; ++i) corners[i] = corner_of(blocks_[b].corners, i, lane);
-            Vec3 centre = Vec3::Zero();
-            for (const Vec3& corner : corners) centre += corner / 8.0;
-            const double cell_volume = volume(corners);
-            weighted += cell_volume * centre;
+            const Vec3 centre = Vec3(sum.x[lane], sum.y[lane], sum.z[lane]) / 8.0;
+            weighted += volumes[lane] * centre;
             plain += centre;
-            sum += cell_volume;
-            sum_of_sizes += std::abs(cell_volume);
+            total += volumes[lane];
+            total_of_sizes += std::abs(volumes[lane]);
         }
     }
     // The paper's code compares the sum with an absolute 1e-6; a share of the sizes does not depend on units.
-    if (sum <= 1e-6 * sum_of_sizes) return plain / static_cast<double>(size());
-    return weighted / sum;
+    if (total <= 1e-6 * total_of_sizes) return plain / static_cast<double>(size());
+    return weighted / total;
 }
 
 }  // namespace hex::improving

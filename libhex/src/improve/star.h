@@ -7,6 +7,7 @@
 #include <hex/volume/topology.h>
 
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -37,6 +38,12 @@ struct StarQuality {
     }
 };
 
+/// One of the numbers whose minimum is a scaled Jacobian, and its gradient with respect to the vertex.
+struct Term {
+    double value;
+    Vec3 gradient;
+};
+
 /// The star of one vertex, with the vertex as corner 0 of every cell (the cells are turned). Moving the
 /// vertex changes five of the nine numbers whose minimum is a cell's scaled Jacobian: those of corners 0, 1,
 /// 3, 4 and of the centre. The other four are computed at most once.
@@ -58,10 +65,19 @@ class Star {
     /// Scaled Jacobians of the cells with the vertex at p, written to `values[cell]`.
     void store(const Vec3& p, std::span<double> values) const;
 
-    /// Direction in which the bad ones of the star's numbers grow together: the sum of their gradients, with
+    /// Values and gradients, with the vertex at p, of all numbers that depend on it, for the two functions
+    /// below.
+    void compute_terms(const Vec3& p);
+
+    /// Direction in which the bad ones of these numbers grow together: the sum of their gradients, with
     /// weights that fall off above the smallest one. `softness` > 0 is the rise of a scaled Jacobian above
     /// the minimum at which its weight has fallen to 1/e. Units: 1 / length.
-    Vec3 ascent_direction(const Vec3& p, double softness) const;
+    Vec3 weighted_ascent(double softness) const;
+
+    /// Direction in which the smallest one grows fastest, when all within `range` of it count as smallest.
+    /// `allowed` takes from a gradient what the vertex cannot follow. Zero where no direction raises them
+    /// all.
+    Vec3 steepest_ascent(double range, const std::function<Vec3(const Vec3&)>& allowed);
 
     /// Volume-weighted mean of the cells' centres (REFERENCE: paper, smoothing of interior vertices); the
     /// volumes are those of the trilinear maps. The plain mean where the volumes cancel out.
@@ -84,6 +100,9 @@ class Star {
     std::size_t block_count_ = 0;
     mutable std::vector<Lanes> fixed_;
     mutable bool fixed_known_ = false;
+    std::vector<Term> terms_;
+    double lowest_term_ = 1.0;
+    std::vector<Vec3> gradients_;
 };
 
 }  // namespace hex::improving

@@ -95,7 +95,7 @@ double Sweeper::star_minimum(VertexId v) const {
     return smallest;
 }
 
-const Star& Sweeper::gather(VertexId v, Workspace& workspace) const {
+Star& Sweeper::gather(VertexId v, Workspace& workspace) const {
     workspace.star.gather(mesh_, stars_[v.index()]);
     return workspace.star;
 }

@@ -40,7 +40,7 @@ class Sweeper {
     double mean_edge_length(VertexId v) const;
 
     /// The star of v with the positions of now.
-    const Star& gather(VertexId v, Workspace& workspace) const;
+    Star& gather(VertexId v, Workspace& workspace) const;
     /// Moves v; `star` must be its star.
     void move(VertexId v, const Vec3& p, const Star& star);
 
