@@ -28,7 +28,7 @@ void describe(CommandLine& line) {
              "step in (0, 1]: share of the move that is made; optimize: the first step (0.01; laplace: 1)");
     line.add("sharp,s", value<int>("0|1|2")->default_value(0),
              "sharp features: none, by angle, or from the sharp file");
-    line.add("tolerance,t", value<double>()->default_value(0.8),
+    line.add("tolerance,t", value<double>()->default_value(0.8, "0.8"),
              "cosine of the angle between normals below which an edge is sharp, for -s 1 and --surface");
     line.add("sharp-file", value<std::string>(),
              "for -s 2: its last integer of each line is a vertex (default sharp.txt beside the input)");
@@ -115,7 +115,16 @@ int run(CommandLine& line) {
         surface = load_triangles(line, line.get<std::string>("surface"));
         options.surface = &*surface;
     }
-    const hex::ImproveResult result = hex::improve(mesh, options, line.context());
+    const hex::ImproveResult result = [&] {
+        try {
+            return hex::improve(mesh, options, line.context());
+        } catch (const hex::Error& error) {
+            // What is wrong with a valid mesh's input is the list of sharp vertices.
+            if (error.kind() != hex::ErrorKind::bad_input) throw;
+            const bool list = options.features == hex::FeatureSource::list;
+            throw error.located((list ? sharp_file(line) : line.input()).string());
+        }
+    }();
     hex::io::write_hex_mesh(line.output(), result.mesh);
     tell(line, result.report);
     line.write_report(report_of(result.report));
