@@ -4,15 +4,9 @@
     improve_check_test.py HEXSPLINE DATA
 """
 import json
-import subprocess
-import sys
-import tempfile
 import unittest
-from pathlib import Path
 
-DATA = Path(sys.argv.pop()).resolve()
-PROGRAM = str(Path(sys.argv.pop()).resolve())
-ROD = DATA / 'rod'
+from program import ROD, CommandTest
 
 
 def write_vtk(path, points, cells):
@@ -26,18 +20,7 @@ def write_vtk(path, points, cells):
 CUBE = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]
 
 
-class Commands(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
-
-    def run_program(self, *arguments, code=0):
-        done = subprocess.run([PROGRAM, *map(str, arguments)], cwd=self.folder, stdin=subprocess.DEVNULL,
-                              capture_output=True, text=True)
-        self.assertEqual(done.returncode, code, done.stderr)
-        return done
-
+class Commands(CommandTest):
     def report(self, name='report.json'):
         return json.loads((self.folder / name).read_text())
 

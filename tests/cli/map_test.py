@@ -4,31 +4,14 @@
     map_test.py HEXSPLINE DATA
 """
 import json
-import subprocess
-import sys
-import tempfile
 import unittest
-from pathlib import Path
 
-DATA = Path(sys.argv.pop()).resolve()
-PROGRAM = str(Path(sys.argv.pop()).resolve())
-ROD = DATA / 'rod'
+from program import DATA, ROD, CommandTest
 # Part: patches, blocks, hexahedra at level 2 (data/README.md).
 PARTS = {'rod': (70, 26, 1664), 'bracket': (38, 10, 640), 'blob': (30, 37, 2368)}
 
 
-class Commands(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
-
-    def run_program(self, *arguments, code=0):
-        done = subprocess.run([PROGRAM, *map(str, arguments)], cwd=self.folder, stdin=subprocess.DEVNULL,
-                              capture_output=True, text=True)
-        self.assertEqual(done.returncode, code, done.stderr)
-        return done
-
+class Commands(CommandTest):
     def test_own_parts_have_the_counts_of_their_description(self):
         for name, (patches, blocks, hexes) in PARTS.items():
             self.run_program('map', '-i', DATA / name / f'{name}_patches.k', '-p', DATA / name / f'{name}_blocks.k',

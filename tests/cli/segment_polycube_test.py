@@ -4,15 +4,9 @@
     segment_polycube_test.py HEXSPLINE DATA
 """
 import json
-import subprocess
-import sys
-import tempfile
 import unittest
-from pathlib import Path
 
-DATA = Path(sys.argv.pop()).resolve()
-PROGRAM = str(Path(sys.argv.pop()).resolve())
-ROD = DATA / 'rod'
+from program import DATA, ROD, CommandTest
 
 
 def shell_parts(path):
@@ -22,18 +16,7 @@ def shell_parts(path):
     return [int(line.split(',')[1]) for line in lines[start:end]]
 
 
-class Commands(unittest.TestCase):
-    def setUp(self):
-        folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.folder = Path(folder.name)
-
-    def run_program(self, *arguments, code=0):
-        done = subprocess.run([PROGRAM, *map(str, arguments)], cwd=self.folder, stdin=subprocess.DEVNULL,
-                              capture_output=True, text=True)
-        self.assertEqual(done.returncode, code, done.stderr)
-        return done
-
+class Commands(CommandTest):
     def test_segment_writes_parts_labels_and_report_that_agree(self):
         self.run_program('segment', '-i', ROD / 'rod_tri.k', '-o', 'out.k', '-l', '0.1', '--labels', 'labels.txt',
                          '--json', 'report.json')

@@ -10,7 +10,7 @@
 #include <hex/base/context.h>
 #include <hex/base/diagnostics.h>
 #include <hex/base/registry.h>
-#include <hex/improve/improve.h>
+#include <hex/feature/feature_set.h>
 #include <hex/volume/hex_mesh.h>
 #include <spline/bezier.h>
 #include <spline/level_mesh.h>

@@ -11,6 +11,13 @@
 
 namespace hex {
 
+/// Where the sharp features of a mesh come from.
+enum class FeatureSource {
+    none,   ///< no sharp features
+    angle,  ///< by the angle between boundary quads
+    list,   ///< from a list of vertices
+};
+
 enum class VertexFeature : std::uint8_t {
     interior,  ///< not on the boundary
     smooth,    ///< on the boundary, no sharp edge

@@ -17,12 +17,6 @@
 
 namespace hex {
 
-enum class FeatureSource {
-    none,   ///< no sharp features
-    angle,  ///< by the angle between boundary quads
-    list,   ///< from a list of vertices
-};
-
 struct ImproveOptions {
     /// Name of the method in the registry: `laplace`, `pillow`, `smooth`, `optimize` (paper, section on
     /// quality), or a plug-in's.
