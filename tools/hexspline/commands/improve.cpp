@@ -21,8 +21,9 @@ void describe(CommandLine& line) {
     line.add_input("hexahedral mesh");
     line.add_output("improved mesh");
     line.add_switch("Quality,Q", "accepted and without effect, as in the paper's command lines");
-    line.add("method,m", value<std::string>("NAME")->default_value("smooth"),
-             "laplace, pillow, smooth, optimize (or 0, 1, 2, 3 as in the paper), or a plug-in's");
+    line.add(
+        "method,m", value<std::string>("NAME")->default_value("smooth"),
+        "laplace, pillow, smooth, optimize (or 0, 1, 2, 3 as in the paper), untangle, auto, or a plug-in's");
     line.add("count,n", value<int>(), "layers of pillow (1), sweeps of the others (50)");
     line.add("step,p", value<double>(),
              "step in (0, 1]: share of the move that is made; optimize: the first step (0.01; laplace: 1)");
@@ -33,6 +34,12 @@ void describe(CommandLine& line) {
     line.add("sharp-file", value<std::string>(),
              "for -s 2: its last integer of each line is a vertex (default sharp.txt beside the input)");
     line.add("surface", value<std::string>(), "closed surface on which boundary vertices are kept");
+    line.add(
+        "max-deviation", value<double>("PCT"),
+        "untangle, auto: how far boundary vertices may leave the surface, in percent of its diagonal (0.01 "
+        "with --surface, else 1)");
+    line.add("target-sj", value<double>()->default_value(1.0),
+             "untangle, auto: stop when the smallest scaled Jacobian has reached this");
 }
 
 /// The paper's numbers of the methods, and names.
@@ -60,6 +67,12 @@ hex::ImproveOptions options_of(const CommandLine& line) {
     line.require_range("sharp", sharp, 0, 2);
     if (sharp == 1) options.features = hex::FeatureSource::angle;
     if (sharp == 2) options.features = hex::FeatureSource::list;
+    if (line.given("max-deviation")) {
+        options.max_deviation = line.get<double>("max-deviation");
+        line.require_range("max-deviation", options.max_deviation, 0.0, 100.0);
+    }
+    options.target = line.get<double>("target-sj");
+    line.require_range("target-sj", options.target, 1e-12, 1.0);
     return options;
 }
 

@@ -19,7 +19,7 @@ namespace hex {
 
 struct ImproveOptions {
     /// Name of the method in the registry: `laplace`, `pillow`, `smooth`, `optimize` (paper, section on
-    /// quality), or a plug-in's.
+    /// quality), `untangle`, `auto`, or a plug-in's.
     std::string method = "smooth";
     /// Layers (pillow) or sweeps (the others), >= 0. -1: the method's own default, 1 layer or 50 sweeps.
     int count = -1;
@@ -35,7 +35,17 @@ struct ImproveOptions {
     /// smooth, optimize: boundary vertices are brought and kept onto this surface, each on the smooth region,
     /// sharp curve (dihedral angle by `feature_cosine`) or corner of it that it belongs to; none: they move
     /// tangentially only, and so drift a little.
+    /// untangle, auto: the same; none: they move on the boundary of the input, whose sharp curves are found
+    /// by `feature_cosine`, or given by FeatureSource::list (FeatureSource::none and ::angle make no
+    /// difference).
     const TriangleMesh* surface = nullptr;
+    /// untangle, auto: how far boundary vertices may leave the surface, in percent of its diagonal, >= 0. It
+    /// is used only where it helps, and no more than 0.1 of it at vertices that are not on a sharp curve
+    /// (smooth curves through the corners of the input's polylines may be farther off). Negative: the
+    /// default, 0.01 with `surface`, else 1.
+    double max_deviation = -1.0;
+    /// untangle, auto: they stop when the smallest scaled Jacobian has reached this, in (0, 1].
+    double target = 1.0;
 };
 
 /// State of the mesh after a sweep or a layer.
@@ -66,6 +76,8 @@ struct ImproveResult {
 /// or, that being equal, the smallest scaled Jacobian improves), so neither the number of inverted elements
 /// nor the minimum of the mesh ever gets worse, but for bringing boundary vertices onto `surface`, which only
 /// promises to invert nothing. `pillow` never inverts an element that was not.
+/// `untangle` and `auto` return the input itself rather than a mesh with more inverted elements or, their
+/// number being equal, a lower minimum.
 class Improver {
   public:
     virtual ~Improver() = default;

@@ -1,0 +1,248 @@
+#include "improve/minimum_raiser.h"
+
+#include "improve/star_ascent.h"
+#include "improve/sweep.h"
+
+#include <hex/base/error.h>
+#include <hex/base/parallel.h>
+#include <hex/improve/corner_energies.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hex::improving {
+namespace {
+
+/// Above this minimum no slack is used.
+constexpr double good_enough = 0.5;
+/// Most slack, in percent of the diagonal.
+constexpr double largest_slack = 0.1;
+/// Rounds of smoothing along dual sheets that the reference lengths get.
+constexpr int reference_rounds = 5;
+/// Continuation steps of the untangling before it is given up.
+constexpr int most_continuations = 40;
+
+/// Reference boxes: each side the mean of its four edges, evened out along the sheet of cells that share such
+/// edges, but not across it: thin layers stay thin, and a crushed cell wants to be like its neighbours.
+std::vector<Vec3> reference_boxes(const HexMesh& mesh, const EdgeTable& edges) {
+    constexpr std::array<Eigen::Index, 12> axis = {0, 1, 0, 1, 2, 2, 2, 2, 0, 1, 0, 1};
+    std::vector<double> length(edges.size());
+    for (std::size_t e = 0; e < edges.size(); ++e)
+        length[e] = (mesh.position(edges.vertices[e][0]) - mesh.position(edges.vertices[e][1])).norm();
+    std::vector<Vec3> boxes(mesh.cell_count());
+    const auto average = [&] {
+        parallel_for(boxes.size(), [&](std::size_t c) {
+            Vec3 sum = Vec3::Zero();
+            for (std::size_t k = 0; k < 12; ++k) sum[axis[k]] += length[edges.cell_edges[c][k].index()];
+            boxes[c] = 0.25 * sum;
+        });
+    };
+    average();
+    for (int round = 0; round < reference_rounds; ++round) {
+        std::vector<double> sum(edges.size(), 0.0);
+        for (std::size_t c = 0; c < boxes.size(); ++c)
+            for (std::size_t k = 0; k < 12; ++k) sum[edges.cell_edges[c][k].index()] += boxes[c][axis[k]];
+        for (std::size_t e = 0; e < edges.size(); ++e)
+            length[e] = sum[e] / static_cast<double>(edges.cells[EdgeId(e).index()].size());
+        average();
+    }
+    double mean = 0.0;
+    for (const Vec3& box : boxes) mean += box.sum();
+    mean /= 3.0 * static_cast<double>(boxes.size());
+    if (!(mean > 0.0)) mean = 1.0;
+    for (Vec3& box : boxes) box = box.cwiseMax(1e-6 * mean);
+    return boxes;
+}
+
+double smallest_determinant(const HexMesh& mesh, const std::vector<Vec3>& boxes) {
+    return parallel_reduce(
+        boxes.size(), std::numeric_limits<double>::infinity(),
+        [&](double smallest, std::size_t c) {
+            return std::min(smallest,
+                            FoldoverEnergy::smallest_determinant(mesh.corner_positions(CellId(c)), boxes[c]));
+        },
+        [](double a, double b) { return std::min(a, b); });
+}
+
+}  // namespace
+
+bool better(const ImproveRecord& a, const ImproveRecord& b) {
+    return a.inverted != b.inverted ? a.inverted < b.inverted : a.min > b.min;
+}
+
+GuideSurface make_guide_surface(const HexMesh& mesh, const BoundaryQuads& boundary,
+                                const ImproveOptions& options) {
+    if (options.surface != nullptr) return make_guide_surface(*options.surface);
+    std::vector<char> listed;
+    if (options.features == FeatureSource::list) {
+        listed.assign(mesh.vertex_count(), 0);
+        for (const std::int64_t v : options.feature_vertices) {
+            if (v < 0 || v >= static_cast<std::int64_t>(mesh.vertex_count()))
+                throw Error(ErrorKind::bad_input, "sharp vertex " + std::to_string(v) + " does not exist", {},
+                            "the mesh has " + std::to_string(mesh.vertex_count()) +
+                                " vertices, counted from 0; give the ids of this mesh");
+            listed[static_cast<std::size_t>(v)] = 1;
+        }
+    }
+    return make_guide_surface(mesh, boundary, listed);
+}
+
+MinimumRaiser::MinimumRaiser(const HexMesh& mesh, GuideSurface surface, const ImproveOptions& options,
+                             const Context& context)
+    : options_(options),
+      context_(context),
+      edges_(edge_table(mesh)),
+      boundary_(boundary_quads(mesh)),
+      guide_(mesh, edges_, boundary_, std::move(surface), {.sharp_cosine = options.feature_cosine}),
+      sliding_(mesh, edges_, &guide_, boundary_),
+      best_(mesh) {}
+
+std::size_t MinimumRaiser::sharp_edge_count() const {
+    return static_cast<std::size_t>(
+        std::count(guide_.feature_edges().begin(), guide_.feature_edges().end(), char{1}));
+}
+
+double MinimumRaiser::aim() const {
+    // The way from the smooth curves to the exact ones costs quality, so the target is for after it.
+    return exact_ ? options_.target : 1.0;
+}
+
+bool MinimumRaiser::reached_target() const {
+    return now_.inverted == 0 && now_.min >= aim();
+}
+
+void MinimumRaiser::record(bool eligible) {
+    now_ = record_of(scaled_jacobians(sliding_.mesh(), context_));
+    now_.sweep = static_cast<int>(history_.size()) + 1;
+    history_.push_back(now_);
+    if (!eligible || (has_best_ && !better(now_, best_record_))) return;
+    if (deviation() > std::max(most_deviation_, 1e-12 * guide_.diagonal())) return;
+    has_best_ = true;
+    best_.set_positions({sliding_.positions().begin(), sliding_.positions().end()});
+    best_record_ = now_;
+}
+
+double MinimumRaiser::deviation() const {
+    return parallel_reduce(
+        boundary_.boundary_vertices.size(), 0.0,
+        [&](double largest, std::size_t i) {
+            const VertexId v = boundary_.boundary_vertices[i];
+            const Vec3& p = sliding_.mesh().position(v);
+            return std::max(largest, (guide_.nearest(v, p, 0).point - p).norm());
+        },
+        [](double a, double b) { return std::max(a, b); });
+}
+
+void MinimumRaiser::run() {
+    const bool exact_surface = options_.surface != nullptr;
+    const double percent =
+        options_.max_deviation >= 0.0 ? options_.max_deviation : (exact_surface ? 0.01 : 1.0);
+    // A little less, for the rounding of text files.
+    most_deviation_ = 0.0099 * percent * guide_.diagonal();
+    const double most_slack = std::min(most_deviation_, 0.01 * largest_slack * guide_.diagonal());
+
+    exact_ = !exact_surface;
+    sliding_.use_smooth_curves(true);
+    sliding_.attach();
+    record(exact_);
+    if (now_.inverted > 0) untangle();
+    raise();
+    context_.progress("improve", 0.5);
+    if (exact_surface || !has_best_ || best_record_.inverted > 0) {
+        exact_ = true;
+        sliding_.use_smooth_curves(false);
+        sliding_.attach();
+        record(true);
+        if (now_.inverted > 0) ascend();
+        raise();
+        context_.progress("improve", 0.75);
+    }
+    if (has_best_ && most_slack > 0.0 && best_record_.min < good_enough) {
+        for (const double share : {0.5, 1.0}) {
+            sliding_.set_positions(best_.positions());
+            sliding_.set_slack(share * most_slack);
+            sliding_.attach();
+            if (best_record_.inverted > 0) ascend();
+            raise();
+            if (best_record_.min >= good_enough) break;
+        }
+    }
+    context_.progress("improve", 1.0);
+}
+
+void MinimumRaiser::untangle() {
+    const std::vector<Vec3> boxes = reference_boxes(sliding_.mesh(), edges_);
+    FoldoverEnergy energy;
+    double det = smallest_determinant(sliding_.mesh(), boxes);
+    energy.epsilon = det > 0.0 ? 1e-3 : std::sqrt(1e-6 + 0.04 * det * det);
+    const auto cell_energy = [&](std::size_t c, const HexCorners& corners, HexCorners* gradient) {
+        return energy.evaluate(corners, boxes[c], gradient);
+    };
+    for (int k = 0; k < most_continuations; ++k) {
+        DescentOptions descent;
+        descent.most_iterations = 100;
+        const DescentResult result = descend(sliding_, cell_energy, descent, context_);
+        det = smallest_determinant(sliding_.mesh(), boxes);
+        record(exact_);
+        if (now_.inverted > 0 && now_.inverted < 1 + sliding_.mesh().cell_count() / 200) ascend();
+        if (now_.inverted == 0) break;
+        if (result.iterations == 0 && k > 10) break;
+        // The paper's rule (section 4): epsilon falls so fast that the energy still goes down.
+        const double sigma = std::max(1.0 - result.after / result.before, 0.1);
+        const double root = std::sqrt(energy.epsilon * energy.epsilon + det * det);
+        const double chi =
+            det > 0.0 ? 0.5 * (det + root) : 0.5 * energy.epsilon * energy.epsilon / (root - det);
+        const double mu = (1.0 - sigma) * chi;
+        energy.epsilon = det < mu ? 2.0 * std::sqrt(mu * (mu - det)) : 1e-10;
+    }
+    if (now_.inverted > 0) return;
+    // Once valid, the unregularised energy evens the mesh out and cannot fold it again.
+    energy.epsilon = 0.0;
+    DescentOptions descent;
+    descent.most_iterations = 100;
+    const double before = now_.min;
+    const std::vector<Vec3> positions(sliding_.positions().begin(), sliding_.positions().end());
+    if (det > 0.0) (void)descend(sliding_, cell_energy, descent, context_);
+    record(exact_);
+    if (now_.inverted > 0) {
+        sliding_.set_positions(positions);
+        now_.min = before;
+    }
+}
+
+void MinimumRaiser::raise() {
+    ascend();
+    for (const double gap : {0.3, 0.1, 0.03}) {
+        if (reached_target()) return;
+        lower_barrier(gap);
+        ascend();
+    }
+}
+
+void MinimumRaiser::lower_barrier(double gap) {
+    constexpr int most_repeats = 5;
+    for (int i = 0; i < most_repeats; ++i) {
+        const ImproveRecord before = now_;
+        QualityBarrier barrier;
+        barrier.floor = before.min - gap;
+        DescentOptions descent;
+        descent.most_iterations = 50;
+        descent.relative_gain = 1e-5;
+        (void)descend(
+            sliding_,
+            [&](std::size_t, const HexCorners& corners, HexCorners* gradient) {
+                return barrier.evaluate(corners, gradient);
+            },
+            descent, context_);
+        record(exact_);
+        if (now_.min - before.min < 0.25 * gap) return;
+    }
+}
+
+void MinimumRaiser::ascend() {
+    AscentOptions options;
+    options.target = aim();
+    if (raise_star_minima(sliding_, options, context_) > 0) record(exact_);
+}
+
+}  // namespace hex::improving

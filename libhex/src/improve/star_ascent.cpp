@@ -1,0 +1,138 @@
+#include "improve/star_ascent.h"
+
+#include "improve/coloring.h"
+
+#include <hex/base/parallel.h>
+#include <hex/improve/corner_energies.h>
+#include <hex/quality/scaled_jacobian.h>
+
+#include <algorithm>
+
+namespace hex::improving {
+namespace {
+
+/// Lengths of the tried steps in shares of the mean edge length.
+constexpr std::array<double, 6> steps = {0.4, 0.15, 0.05, 0.015, 0.005, 0.0015};
+
+class StarAscent {
+  public:
+    explicit StarAscent(SlidingMesh& mesh) : mesh_(mesh), sizes_(mesh.vertex_sizes()) {}
+
+    /// Moves v to the best place found; whether it moved.
+    bool raise(VertexId v) {
+        const Vec3 here = mesh_.mesh().position(v);
+        const double now = star_minimum(v, here, -2.0);
+        double best = now + 1e-7;
+        const bool bound = mesh_.on_boundary(v);
+        if (bound && mesh_.guide() == nullptr) return false;
+        const Freedom freedom = bound ? mesh_.guide()->freedom(v) : Freedom::interior;
+        if (freedom == Freedom::corner) return false;
+        BoundaryGuide::Place best_place{here, Vec3::Zero(), 0};
+        bool found = false;
+        const auto attempt = [&](const Vec3& p) {
+            const BoundaryGuide::Place place =
+                bound ? mesh_.place(v, p) : BoundaryGuide::Place{p, Vec3::Zero(), 0};
+            const double quality = star_minimum(v, place.point, best);
+            if (!(quality > best)) return;
+            best = quality;
+            best_place = place;
+            found = true;
+        };
+        const double size = sizes_[v.index()];
+        for (const double depth : {0.01, 0.05, 0.3}) {
+            Vec3 direction = ascent_direction(v, now - depth);
+            if (mesh_.slack() == 0.0) direction = tangential(v, freedom, direction);
+            const double length = direction.norm();
+            if (!(length > 0.0)) continue;
+            for (const double share : steps) attempt(here + share * size / length * direction);
+        }
+        if (freedom == Freedom::curve) {
+            for (const double share : steps) {
+                attempt(here + share * size * mesh_.axis(v));
+                attempt(here - share * size * mesh_.axis(v));
+            }
+            if (!mesh_.smooth_curves())
+                for (const Vec3& kink : mesh_.guide()->segment(v, mesh_.item(v))) attempt(kink);
+        } else if (!found) {
+            for (const double share : {0.1, 0.02, 0.004}) {
+                for (Eigen::Index i = 0; i < 3; ++i) {
+                    attempt(here + share * size * Vec3::Unit(i));
+                    attempt(here - share * size * Vec3::Unit(i));
+                }
+            }
+        }
+        if (found) mesh_.move(v, best_place);
+        return found;
+    }
+
+  private:
+    Vec3 tangential(VertexId v, Freedom freedom, const Vec3& d) const {
+        const Vec3& axis = mesh_.axis(v);
+        if (freedom == Freedom::region) return d - d.dot(axis) * axis;
+        if (freedom == Freedom::curve) return d.dot(axis) * axis;
+        return d;
+    }
+
+    /// Smallest scaled Jacobian around v when it is at p; only whether it is above `enough` matters.
+    double star_minimum(VertexId v, const Vec3& p, double enough) const {
+        double smallest = 1.0;
+        for (const std::uint32_t c : mesh_.corners_at(v)) {
+            std::array<Vec3, 8> corners = mesh_.mesh().corner_positions(CellId(c / 8));
+            corners[c % 8] = p;
+            const double quality = scaled_jacobian(corners);
+            // Exactly 0 is an edge without length, from which there is no direction out again.
+            smallest = std::min(smallest, quality == 0.0 ? -1.0 : quality);
+            if (smallest <= enough) break;
+        }
+        return smallest;
+    }
+
+    /// Against the gradient of the barrier around v.
+    Vec3 ascent_direction(VertexId v, double floor) const {
+        QualityBarrier barrier;
+        barrier.floor = floor;
+        Vec3 sum = Vec3::Zero();
+        for (const std::uint32_t c : mesh_.corners_at(v)) {
+            HexCorners gradient;
+            gradient.fill(Vec3::Zero());
+            if (std::isfinite(barrier.evaluate(mesh_.mesh().corner_positions(CellId(c / 8)), &gradient)))
+                sum -= gradient[c % 8];
+        }
+        return sum;
+    }
+
+    SlidingMesh& mesh_;
+    std::vector<double> sizes_;
+};
+
+}  // namespace
+
+int raise_star_minima(SlidingMesh& mesh, const AscentOptions& options, const Context& context) {
+    StarAscent ascent(mesh);
+    std::vector<double> minima;
+    int sweeps = 0;
+    for (; sweeps < options.most_sweeps; ++sweeps) {
+        context.check_cancelled();
+        const std::vector<double> values = scaled_jacobians(mesh.mesh());
+        const double worst = *std::min_element(values.begin(), values.end());
+        minima.push_back(worst);
+        if (worst >= options.target) break;
+        const auto patience = static_cast<std::size_t>(options.patience);
+        if (minima.size() > patience && worst - minima[minima.size() - 1 - patience] < options.gain) break;
+        const double bad = worst + options.margin;
+        std::vector<char> active(mesh.mesh().vertex_count(), 0);
+        for (const CellId c : mesh.mesh().cells())
+            if (values[c.index()] < bad)
+                for (const VertexId v : mesh.mesh().cell(c)) active[v.index()] = 1;
+        std::size_t moved = 0;
+        for (const auto& members : independent_classes(mesh.mesh(), active))
+            moved += parallel_reduce(
+                members.size(), std::size_t{0},
+                [&](std::size_t count, std::size_t i) { return count + ascent.raise(members[i]); },
+                [](std::size_t a, std::size_t b) { return a + b; }, 8);
+        if (moved == 0) break;
+    }
+    return sweeps;
+}
+
+}  // namespace hex::improving
