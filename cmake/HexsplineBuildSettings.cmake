@@ -27,6 +27,8 @@ if(HEXSPLINE_WERROR)
 endif()
 if(HEXSPLINE_SANITIZE)
     string(REPLACE ";" "," sanitizers "${HEXSPLINE_SANITIZE}")
-    add_compile_options(-fsanitize=${sanitizers} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+    # GCC 12 sees uninitialised values in the code that sanitizers add.
+    add_compile_options(-fsanitize=${sanitizers} -fno-omit-frame-pointer -fno-sanitize-recover=all
+                        -Wno-maybe-uninitialized)
     add_link_options(-fsanitize=${sanitizers})
 endif()

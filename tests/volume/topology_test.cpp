@@ -194,7 +194,7 @@ TEST(Inspect, NamesAnEdgeWhereTwoCellsOnlyTouch) {
     const Diagnostics found = inspect(mesh);
     const auto ids = ids_of(found, "non-manifold-edges");
     ASSERT_EQ(ids.size(), 1u);
-    const auto& ends = edge_table(mesh).vertices[static_cast<std::size_t>(ids[0])];
+    const auto ends = edge_table(mesh).vertices[static_cast<std::size_t>(ids[0])];
     EXPECT_EQ(ends, (std::array{VertexId(2), VertexId(6)}));
 }
 
