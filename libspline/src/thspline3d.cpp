@@ -102,7 +102,15 @@ void extract(const HierarchyLevel& level, std::size_t number, const SparseRows* 
     hex::parallel_for(cells.size(), [&](std::size_t i) {
         spline.elements[first_element + i] = blending.element_points(cells[i]);
     });
-    for (const CellId c : cells) spline.element_cell.push_back(c.value());
+    for (const CellId c : cells) {
+        spline.element_cell.push_back(c.value());
+        unsigned faces = 0;
+        for (int f = 0; f < 6; ++f) {
+            const hex::HalfFaceId h = hex::HexMesh::half_face(c, f);
+            if (level.control.boundary.quad_of_half_face[h.index()].valid()) faces |= 1U << f;
+        }
+        spline.boundary_faces.push_back(static_cast<std::uint8_t>(faces));
+    }
 
     // Points in the order of their first use: what an element needs lies close together.
     std::vector<std::uint32_t> number_of_point(blending.point_count(), no_function);

@@ -26,6 +26,8 @@ struct BezierSpline {
 
     std::vector<std::uint16_t> element_level;  ///< of the hierarchy; 0 when not known
     std::vector<std::uint32_t> element_cell;   ///< cell in the mesh of that level
+    /// Bit f: local face f of the element lies on the boundary of the solid. Empty when not known.
+    std::vector<std::uint8_t> boundary_faces;
 
     std::size_t element_count() const { return elements.size(); }
     std::size_t function_count() const { return control_points.size(); }
