@@ -18,6 +18,7 @@ def shell_parts(path):
 
 class Commands(CommandTest):
     def test_segment_writes_parts_labels_and_report_that_agree(self):
+        # A weight alone means the published method.
         self.run_program('segment', '-i', ROD / 'rod_tri.k', '-o', 'out.k', '-l', '0.1', '--labels', 'labels.txt',
                          '--json', 'report.json')
         labels = [int(line) for line in (self.folder / 'labels.txt').read_text().split()]
@@ -26,6 +27,18 @@ class Commands(CommandTest):
         self.assertEqual(list(report['label_counts'].values()), [labels.count(k) for k in range(6)])
         self.assertEqual([s['phase'] for s in report['sweeps']], sorted(s['phase'] for s in report['sweeps']))
         self.assertGreater(report['charts'], 6)
+        self.assertEqual(report['method'], 'hbecvt')
+
+    def test_the_automatic_method_repairs_and_tells_it(self):
+        for threads in (1, 2):
+            self.run_program('segment', DATA / 'blob' / 'blob_tri.k', '-o', 'out.k', '--json', f'{threads}.json',
+                             '--labels', f'{threads}.txt', '--threads', threads)
+        self.assertEqual((self.folder / '1.txt').read_bytes(), (self.folder / '2.txt').read_bytes())
+        report = json.loads((self.folder / '1.json').read_text())
+        self.assertEqual(report['method'], 'auto')
+        self.assertEqual([v for v in report['violations'] if v['severity'] == 'error'], [])
+        for repair in report['repairs']:
+            self.assertEqual(list(repair), ['repair', 'reason', 'triangle', 'triangles', 'cost'])
 
     def test_segment_writes_the_same_bytes_for_any_number_of_threads(self):
         for threads in (1, 2):

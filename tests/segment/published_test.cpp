@@ -13,6 +13,12 @@
 namespace hex {
 namespace {
 
+SegmentOptions hbecvt() {
+    SegmentOptions options;
+    options.method = "hbecvt";
+    return options;
+}
+
 class PublishedRod : public testing::Test {
   protected:
     void SetUp() override {
@@ -49,7 +55,7 @@ TEST_F(PublishedRod, LabelsAfterCvt) {
 }
 
 TEST_F(PublishedRod, LabelsAfterHbecvtOfWeightOneTenth) {
-    const auto result = segment(mesh);
+    const auto result = segment(mesh, hbecvt());
     EXPECT_EQ(result.segmentation.labels, published("rod_tri_output_EWCVT.vtk"));
     ASSERT_EQ(result.report.sweeps.size(), 4U);
     EXPECT_EQ(result.report.sweeps[2].moves, 3U);
@@ -57,7 +63,7 @@ TEST_F(PublishedRod, LabelsAfterHbecvtOfWeightOneTenth) {
 }
 
 TEST_F(PublishedRod, LabelsAfterTheManualFile) {
-    SegmentOptions options;
+    SegmentOptions options = hbecvt();
     for (const auto& entry : io::read_overrides(folder / "rod_manual.txt"))
         options.manual.push_back({entry.triangle, entry.label});
     const auto result = segment(mesh, options);
@@ -81,8 +87,10 @@ TEST_P(PublishedModel, ChartsAreCountedAsByAnIndependentProgram) {
     HEX_NEEDS_REFERENCE_DATA();
     const Counted& expected = GetParam();
     const std::string name = expected.model;
-    const auto result = segment(make_triangle_mesh(
-        io::read_surface(test::reference_data() / "paper" / name / (name + "_tri.k")).soup));
+    const auto result =
+        segment(make_triangle_mesh(
+                    io::read_surface(test::reference_data() / "paper" / name / (name + "_tri.k")).soup),
+                hbecvt());
     EXPECT_EQ(result.report.charts, expected.charts);
     EXPECT_EQ(result.report.boundaries, expected.boundaries);
     EXPECT_EQ(result.report.corners, expected.corners);
@@ -95,8 +103,10 @@ TEST_P(PublishedModel, ChartsAreCountedAsByAnIndependentProgram) {
 TEST_P(PublishedModel, ClassicalSweepsDoNotRaiseTheEnergy) {
     HEX_NEEDS_REFERENCE_DATA();
     const std::string name = GetParam().model;
-    const auto result = segment(make_triangle_mesh(
-        io::read_surface(test::reference_data() / "paper" / name / (name + "_tri.k")).soup));
+    const auto result =
+        segment(make_triangle_mesh(
+                    io::read_surface(test::reference_data() / "paper" / name / (name + "_tri.k")).soup),
+                hbecvt());
     const auto& sweeps = result.report.sweeps;
     for (std::size_t s = 1; s < sweeps.size(); ++s) {
         if (sweeps[s].phase != "cvt") break;

@@ -44,7 +44,14 @@ ErrorKind kind_of_error(const TriangleMesh& mesh, const SegmentOptions& options,
     return ErrorKind::output;
 }
 
-TEST(Segment, BothMethodsAreRegistered) {
+SegmentOptions hbecvt() {
+    SegmentOptions options;
+    options.method = "hbecvt";
+    return options;
+}
+
+TEST(Segment, AllMethodsAreRegistered) {
+    EXPECT_TRUE(segmenters().contains("auto"));
     EXPECT_TRUE(segmenters().contains("cvt"));
     EXPECT_TRUE(segmenters().contains("hbecvt"));
 }
@@ -79,7 +86,7 @@ TEST(Segment, WithLabelsWritesLabelPlusOneAsPart) {
 
 TEST(Segment, LabelsDoNotDependOnPositionOrSize) {
     const PolygonSoup soup = rough_ball(12, 1);
-    for (const char* method : {"cvt", "hbecvt"}) {
+    for (const char* method : {"cvt", "hbecvt", "auto"}) {
         const auto labels = labels_of(soup, method);
         PolygonSoup moved = soup;  // the coordinates are dyadic, so this shift is exact
         for (Vec3& p : moved.points) p += Vec3(1024, -4096.5, 3.25);
@@ -96,10 +103,10 @@ TEST(Segment, NothingDependsOnTheNumberOfThreads) {
     const TriangleMesh mesh = make_triangle_mesh(rough_ball(40, 2));
     Context context;
     context.threads = 1;
-    const auto one = segment(mesh, {}, context);
+    const auto one = segment(mesh, hbecvt(), context);
     for (const int threads : {2, 3, 8}) {
         context.threads = threads;
-        const auto many = segment(mesh, {}, context);
+        const auto many = segment(mesh, hbecvt(), context);
         EXPECT_EQ(many.segmentation.labels, one.segmentation.labels);
         ASSERT_EQ(many.report.sweeps.size(), one.report.sweeps.size());
         for (std::size_t s = 0; s < one.report.sweeps.size(); ++s)
@@ -109,7 +116,7 @@ TEST(Segment, NothingDependsOnTheNumberOfThreads) {
 }
 
 TEST(Segment, SweepsStopAtFewerThanThreeMovesOrAtTheirLimit) {
-    const auto result = segment(make_triangle_mesh(rough_ball(30, 3)));
+    const auto result = segment(make_triangle_mesh(rough_ball(30, 3)), hbecvt());
     const auto& sweeps = result.report.sweeps;
     for (std::size_t s = 0; s < sweeps.size(); ++s) {
         const bool last = s + 1 == sweeps.size() || sweeps[s + 1].phase != sweeps[s].phase;
@@ -194,7 +201,7 @@ TEST(Segment, AStopRequestEndsIt) {
 TEST(Segment, ALabelWithoutMembersKeepsItsAxis) {
     // A triangular prism: no face looks towards +Y, the slanted ones look towards +X and -X.
     const auto soup = test::prism({{-2, 0}, {2, 0}, {0, 4}}, 1);
-    const auto result = segment(make_triangle_mesh(soup));
+    const auto result = segment(make_triangle_mesh(soup), hbecvt());
     EXPECT_EQ(result.report.label_counts[2], 0U);
     EXPECT_EQ(result.report.generators[2], Vec3(0, 1, 0));
     for (const auto& sweep : result.report.sweeps) EXPECT_TRUE(std::isfinite(sweep.energy));
@@ -221,7 +228,7 @@ TEST(Segment, ATriangleWithoutAreaTakesTheLabelOfANeighbour) {
         break;
     }
     ASSERT_EQ(box.size(), 14U);
-    for (const char* method : {"cvt", "hbecvt"}) {
+    for (const char* method : {"cvt", "hbecvt", "auto"}) {
         SegmentOptions options;
         options.method = method;
         const auto result = segment(make_triangle_mesh(box), options);

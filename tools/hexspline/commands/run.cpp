@@ -88,6 +88,7 @@ class Chain {
         const hex::TriangleMesh mesh = load_triangles(line_, line_.input());
         hex::SegmentOptions options;
         options.boundary_weight = line_.get<double>("weight");
+        if (line_.given("weight")) options.method = "hbecvt";
         auto result = hex::segment(mesh, options, line_.context());
         report_["charts"] = hex::find_patches(hex::with_labels(mesh, result.segmentation)).patches.size();
         hex::io::write_labels(folder_ / "1-labels.txt", result.segmentation.labels);
@@ -217,7 +218,7 @@ void describe(CommandLine& line) {
     line.add("to", value<std::string>("STAGE")->default_value("spline"), "last stage to run");
     line.add("level,s", value<int>()->default_value(2), "every block becomes 2^N x 2^N x 2^N elements");
     line.add("weight,l", value<double>()->default_value(0.1, "0.1"),
-             "segment: weight of the boundary-enhanced term");
+             "segment: weight of the boundary-enhanced term; with it the method is hbecvt");
     line.add("improve", value<std::string>("LIST")->default_value("smooth,optimize"),
              "methods of stage improve, in order, separated by commas; none to leave the mesh as it is");
     line.add("sharp-cosine,t", value<double>()->default_value(0.8, "0.8"),

@@ -23,9 +23,9 @@ void describe(CommandLine& line) {
     line.add("manual,m", value<std::string>(), "labels set by hand: lines `triangle label`, applied last");
     line.add("manual-base", value<int>("0|1")->default_value(0), "what the numbers in -m count from");
     line.add("weight,l", value<double>()->default_value(0.1),
-             "weight of the boundary-enhanced term, >= 0: more for straighter boundaries");
-    line.add("method", value<std::string>("NAME")->default_value("hbecvt"),
-             "hbecvt, cvt, or a plug-in's (hexspline plugins)");
+             "weight of hbecvt's boundary-enhanced term, >= 0: more for straighter boundaries");
+    line.add("method", value<std::string>("NAME")->default_value("auto"),
+             "auto, hbecvt (what -l alone means), cvt, or a plug-in's (hexspline plugins)");
     line.add("labels", value<std::string>(), "write one label 0..5 = +X -X +Y -Y +Z -Z per triangle as text");
     line.add_switch("from-patches", "the part ids of -i are patches made by hand: keep and check them");
     line.add_switch("require", "exit with 1 when a condition on a polycube segmentation is violated");
@@ -33,7 +33,9 @@ void describe(CommandLine& line) {
 
 hex::SegmentOptions options_of(const CommandLine& line) {
     hex::SegmentOptions options;
-    options.method = line.get<std::string>("method");
+    // The published command lines give a weight and no method.
+    options.method =
+        line.given("weight") && !line.given("method") ? "hbecvt" : line.get<std::string>("method");
     options.boundary_weight = line.get<double>("weight");
     const int base = line.get<int>("manual-base");
     line.require_range("manual-base", base, 0, 1);
@@ -65,12 +67,20 @@ Json report_of(const hex::SegmentReport& report, const hex::SegmentOptions& opti
                           {"sweep", sweep.sweep},
                           {"moves", sweep.moves},
                           {"energy", sweep.energy}});
+    Json repairs = Json::array();
+    for (const auto& repair : report.repairs)
+        repairs.push_back({{"repair", repair.repair},
+                           {"reason", repair.reason},
+                           {"triangle", repair.triangle},
+                           {"triangles", repair.triangles},
+                           {"cost", repair.cost}});
     return {{"method", report.method},
             {"weight", report.sweeps.empty() ? Json(nullptr) : Json(options.boundary_weight)},
             {"label_counts", counts},
             {"charts", report.charts},
             {"boundaries", report.boundaries},
             {"corners", report.corners},
+            {"repairs", repairs},
             {"manual_changes", report.manual_changes},
             {"generators", generators},
             {"sweeps", sweeps},
@@ -100,6 +110,10 @@ void tell_summary(const CommandLine& line, const hex::SegmentReport& report) {
     for (const auto& sweep : report.sweeps)
         line.info(sweep.phase + " sweep " + std::to_string(sweep.sweep) + ": " + std::to_string(sweep.moves) +
                   " moves, energy " + std::to_string(sweep.energy));
+    for (const auto& repair : report.repairs)
+        line.info(repair.repair + " at triangle " + std::to_string(repair.triangle) + " (" + repair.reason +
+                  "): " + std::to_string(repair.triangles) + " triangles, cost " +
+                  std::to_string(repair.cost));
     std::string counts;
     for (int label = 0; label < 6; ++label)
         counts += std::string(label > 0 ? ", " : "") + hex::label_name(label) + " " +

@@ -36,11 +36,11 @@ struct ManualLabel {
 };
 
 struct SegmentOptions {
-    /// Name of the method in the registry: `hbecvt` (CVT, then harmonic boundary-enhanced CVT), `cvt`, or a
-    /// plug-in's.
-    std::string method = "hbecvt";
-    /// Weight omega of the boundary-enhanced term, >= 0 (paper, equation of HBECVT; the published runs use
-    /// 0.1).
+    /// Name of the method in the registry: `auto` (a graph cut, repaired until a polycube can have these
+    /// labels), `hbecvt` (CVT, then harmonic boundary-enhanced CVT), `cvt`, or a plug-in's.
+    std::string method = "auto";
+    /// hbecvt: weight omega of the boundary-enhanced term, >= 0 (paper, equation of HBECVT; the published
+    /// runs use 0.1).
     double boundary_weight = 0.1;
     /// Applied last, in order. An index or label out of range throws Error{bad_input}.
     std::vector<ManualLabel> manual;
@@ -54,6 +54,18 @@ struct SweepRecord {
     double energy = 0.0;    ///< sum of squared distances after the sweep (for hbecvt: with the boundary term)
 };
 
+/// One change that the automatic method made to its first labels.
+struct RepairRecord {
+    std::string repair;         ///< name of the operator, such as "insert-chart" (docs/automatic.md)
+    std::string reason;         ///< code of what was wrong there, such as "opposite-labels-adjacent"
+    std::int64_t triangle = 0;  ///< where: the first of the triangles that changed
+    std::size_t triangles = 0;  ///< how many changed their label
+    /// What it took from the faith to the normals: the rise of the sum, over the triangles, of the share of
+    /// the whole area times 1 - cosine between normal and axis (more below a cosine of 0.3). Less than zero
+    /// when it gave some back.
+    double cost = 0.0;
+};
+
 struct SegmentReport {
     std::string method;
     std::array<std::size_t, 6> label_counts{};
@@ -61,10 +73,11 @@ struct SegmentReport {
     /// Unit generators of the six labels after the last sweep; the axes for methods that have none.
     std::array<Vec3, 6> generators = {label_axis(0), label_axis(1), label_axis(2),
                                       label_axis(3), label_axis(4), label_axis(5)};
-    std::size_t manual_changes = 0;  ///< triangles whose label the manual list changed
-    std::size_t charts = 0;          ///< connected regions of equal label
-    std::size_t boundaries = 0;      ///< maximal runs of edges between two charts
-    std::size_t corners = 0;         ///< vertices where at least three boundaries end
+    std::vector<RepairRecord> repairs;  ///< of method `auto`, in order
+    std::size_t manual_changes = 0;     ///< triangles whose label the manual list changed
+    std::size_t charts = 0;             ///< connected regions of equal label
+    std::size_t boundaries = 0;         ///< maximal runs of edges between two charts
+    std::size_t corners = 0;            ///< vertices where at least three boundaries end
     /// Violations of the paper's three conditions, as validate_charts (charts.h) tells them, each with its
     /// triangle or vertex ids.
     Diagnostics violations;

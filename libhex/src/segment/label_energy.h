@@ -1,0 +1,56 @@
+/// \file label_energy.h
+/// How good a labelling is: its faith to the normals, the length of its boundaries, and what keeps it from
+/// being that of a polycube.
+#pragma once
+
+#include "segment/label_surface.h"
+
+#include <vector>
+
+namespace hex {
+
+/// The parts of the energy.
+struct LabelScore {
+    double infidelity = 0.0;  ///< sum of the costs of the labels
+    double cut = 0.0;         ///< sum of the weights of the edges between charts
+    int opposite = 0;         ///< boundaries between opposite labels
+    int missing_sides = 0;    ///< sum over the charts of the boundaries they lack to four
+    int few_sided = 0;        ///< charts with fewer than four boundaries
+    int crossings = 0;        ///< corners where more than three boundaries meet
+    int turns = 0;            ///< places where a boundary turns back along its axis
+    int charts = 0;
+
+    bool valid() const { return opposite == 0 && few_sided == 0; }
+    /// How far it is from a valid one.
+    double invalidity() const { return opposite + 0.5 * missing_sides; }
+    /// What it costs, valid or not.
+    double price() const {
+        return infidelity + 0.005 * cut + 0.02 * crossings + 0.0005 * turns + 0.0005 * charts;
+    }
+    double energy(double weight_of_validity) const { return price() + weight_of_validity * invalidity(); }
+};
+
+/// Evaluates labellings of one surface; keeps its work space. One object for each thread.
+class LabelEnergy {
+  public:
+    explicit LabelEnergy(const LabelSurface& surface);
+
+    /// `labels` has one label 0..5 for each triangle. Linear in the number of triangles.
+    LabelScore evaluate(const std::vector<int>& labels);
+
+  private:
+    void flood_charts(const std::vector<int>& labels);
+    void collect_boundary_edges(const std::vector<int>& labels, LabelScore& score);
+    void walk(int vertex, int edge, const std::vector<int>& labels, LabelScore& score);
+
+    const LabelSurface* surface_;
+    std::vector<int> chart_;
+    std::vector<int> stack_;
+    std::vector<int> sides_;
+    std::vector<int> boundary_edges_;
+    std::vector<char> visited_;
+    std::vector<int> degree_;                   ///< boundary edges at each vertex
+    std::vector<std::array<int, 2>> edges_at_;  ///< two of them
+};
+
+}  // namespace hex
