@@ -231,30 +231,39 @@ JacobianReport certify_all(std::size_t count, const Bound& bound, const hex::Con
             std::min(wave, count - first),
             [&](std::size_t i) { report.elements[first + i] = bound(first + i); }, 32);
     }
-    for (std::size_t e = 0; e < count; ++e) {
-        const ElementJacobian& element = report.elements[e];
-        const auto id = static_cast<std::int64_t>(e);
-        switch (element.verdict) {
-            case JacobianVerdict::positive:
-                ++report.positive;
-                report.singular += element.singular != 0;
-                break;
-            case JacobianVerdict::negative:
-                report.negative.push_back(id);
-                break;
-            case JacobianVerdict::undecided:
-                report.undecided.push_back(id);
-                break;
-        }
-        if (report.worst < 0 || element.lower < report.lower) {
-            report.lower = element.lower;
-            report.worst = id;
-        }
-    }
+    report.count();
     return report;
 }
 
 }  // namespace
+
+void JacobianReport::count() {
+    positive = singular = 0;
+    negative.clear();
+    undecided.clear();
+    lower = 0.0;
+    worst = -1;
+    for (std::size_t e = 0; e < elements.size(); ++e) {
+        const ElementJacobian& element = elements[e];
+        const auto id = static_cast<std::int64_t>(e);
+        switch (element.verdict) {
+            case JacobianVerdict::positive:
+                ++positive;
+                singular += element.singular != 0;
+                break;
+            case JacobianVerdict::negative:
+                negative.push_back(id);
+                break;
+            case JacobianVerdict::undecided:
+                undecided.push_back(id);
+                break;
+        }
+        if (worst < 0 || element.lower < lower) {
+            lower = element.lower;
+            worst = id;
+        }
+    }
+}
 
 ElementJacobian bound_jacobian(const std::array<Vec3, 8>& corners, const JacobianOptions& options) {
     std::array<Vec3, 8> points;

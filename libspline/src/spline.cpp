@@ -125,4 +125,13 @@ SplineResult build(const hex::HexMesh& mesh, const SplineOptions& options, const
     });
 }
 
+void update_control_meshes(SplineResult& result) {
+    for (ControlMesh& level : result.levels) {
+        for (std::size_t v = 0; v < level.function.size(); ++v) {
+            if (level.function_active[v] != 0)
+                level.mesh.set_position(hex::VertexId(v), result.spline.control_points[level.function[v]]);
+        }
+    }
+}
+
 }  // namespace spline

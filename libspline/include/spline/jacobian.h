@@ -62,6 +62,8 @@ struct JacobianReport {
     std::int64_t worst = -1;  ///< element that has it
 
     bool proved() const { return negative.empty() && undecided.empty(); }
+    /// Fills the counts and lists from `elements`.
+    void count();
 };
 
 JacobianReport certify(const BezierSpline& spline, const JacobianOptions& options = {},

@@ -101,4 +101,7 @@ hex::Registry<SplineBuilder>& spline_builders();
 SplineResult build(const hex::HexMesh& mesh, const SplineOptions& options = {},
                    const hex::Context& context = {});
 
+/// Gives the vertices of the control meshes the positions of their control points, after these were moved.
+void update_control_meshes(SplineResult& result);
+
 }  // namespace spline

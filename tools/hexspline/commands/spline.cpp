@@ -11,6 +11,8 @@
 #include <spline/io/bext.h>
 #include <spline/io/bezier_vtu.h>
 #include <spline/io/control_mesh_file.h>
+#include <spline/jacobian.h>
+#include <spline/repair.h>
 #include <spline/spline.h>
 
 #include <algorithm>
@@ -138,6 +140,65 @@ Json to_json(const spline::SplineReport& report) {
         {"diagnostics", cli::to_json(report.diagnostics)}};
 }
 
+Json to_json(const spline::JacobianReport& report) {
+    Json worst = nullptr;
+    if (report.worst >= 0) worst = report.worst;
+    Json negative = Json::array();
+    for (const std::int64_t e : report.negative) {
+        const auto& element = report.elements[static_cast<std::size_t>(e)];
+        negative.push_back({{"element", e},
+                            {"at", {element.at[0], element.at[1], element.at[2]}},
+                            {"value", element.smallest}});
+    }
+    return {{"elements", report.elements.size()},
+            {"proved_positive", report.positive},
+            {"of_these_zero_on_an_edge", report.singular},
+            {"proved_negative", report.negative.size()},
+            {"undecided", report.undecided.size()},
+            {"lower_bound", report.lower},
+            {"worst", worst},
+            {"negative_elements", std::move(negative)},
+            {"undecided_elements", report.undecided}};
+}
+
+/// What is known of the Jacobians, mended unless --no-repair, and what that moved.
+Json settle_jacobians(const CommandLine& line, spline::SplineResult& result,
+                      spline::JacobianReport& verdict) {
+    Json report;
+    if (!line.is_set("no-repair")) {
+        spline::RepairOptions options;
+        options.max_deviation = line.get<double>("max-deviation");
+        line.require_range("max-deviation", options.max_deviation, 0.0, 100.0);
+        const auto repair = spline::repair_jacobian(result.spline, verdict, options, line.context());
+        spline::update_control_meshes(result);
+        report = {{"negative_before", repair.negative_before},
+                  {"undecided_before", repair.undecided_before},
+                  {"mended", repair.mended.size()},
+                  {"unmended", repair.unmended},
+                  {"moved_inside", repair.moved_inside},
+                  {"moved_boundary", repair.moved_boundary},
+                  {"largest_move_inside_percent", repair.largest_inside},
+                  {"largest_move_boundary_percent", repair.largest_boundary}};
+        if (!repair.mended.empty())
+            line.info(std::to_string(repair.mended.size()) + " folded elements mended by moving " +
+                      std::to_string(repair.moved_inside) + " control points inside and " +
+                      std::to_string(repair.moved_boundary) + " of the boundary");
+    }
+    const std::string place = line.input().string();
+    if (!verdict.negative.empty())
+        line.warn(place + ": " + std::to_string(verdict.negative.size()) +
+                  " elements of the spline have a negative Jacobian: " + spline::describe_negative(verdict));
+    if (!verdict.undecided.empty())
+        line.warn(place + ": " + std::to_string(verdict.undecided.size()) +
+                  " elements of the spline are neither proved positive nor negative: " +
+                  hex::list_ids(verdict.undecided));
+    if (verdict.singular > 0)
+        line.info(place + ": the Jacobian of " + std::to_string(verdict.singular) +
+                  " elements is zero on an edge or at a corner of the boundary, where it is smooth with one "
+                  "element; make it sharp (-s) where that matters");
+    return report;
+}
+
 int run(CommandLine& line) {
     const Format format = output_format(line);
     const auto path = output_path(line, format);
@@ -150,6 +211,8 @@ int run(CommandLine& line) {
         throw error.located(line.input().string());
     }
     line.log(result.report.diagnostics, line.input().string());
+    spline::JacobianReport verdict = spline::certify(result.spline, {}, line.context());
+    const Json repair = settle_jacobians(line, result, verdict);
 
     if (format == Format::vtu)
         spline::io::write_bezier_vtu(path, result.spline);
@@ -158,6 +221,8 @@ int run(CommandLine& line) {
     line.info(path.string() + ": " + std::to_string(result.spline.function_count()) + " control points, " +
               std::to_string(result.spline.element_count()) + " elements");
     Json report = to_json(result.report);
+    report["jacobian"] = to_json(verdict);
+    if (!repair.is_null()) report["repair"] = repair;
     report["output"] = path.string();
     if (line.given("control-mesh")) {
         Json files = Json::array();
@@ -190,6 +255,10 @@ void describe(CommandLine& line) {
     line.add("format", value<std::string>("bext|vtu"), "format of the output, whatever its extension");
     line.add("control-mesh", value<std::string>("PREFIX"),
              "also write PREFIX_hmesh<level>_CM.vtk of every level");
+    line.add_switch("repair-jacobian", "move control points until no element folds; this is the default");
+    line.add_switch("no-repair", "leave elements that fold as they are");
+    line.add("max-deviation", value<double>("PCT")->default_value(1.0, "1"),
+             "how far mending may move control points of the boundary, in percent of the diagonal");
     line.add_switch("force", "go on with inverted elements");
     line.add("method", value<std::string>("NAME")->default_value("thspline3d"), "see hexspline plugins");
 }
