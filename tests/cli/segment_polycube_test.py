@@ -97,6 +97,27 @@ class Commands(CommandTest):
             self.assertIn('vert', line)
         self.assertEqual(list(self.folder.glob('cube*')), [])
 
+    def test_labels_become_patches_and_blocks_that_map_takes(self):
+        blob = ROD.parent / 'blob' / 'blob_patches.k'
+        self.run_program('polycube', blob, '--patches', 'patches.k', '--blocks', 'blocks.k', '-o', 'quads.k',
+                         '--json', 'report.json')
+        report = json.loads((self.folder / 'report.json').read_text())
+        self.assertEqual(report['violations'], [])
+        self.assertEqual(report['block_structure']['violations'], [])
+        self.assertEqual(len(shell_parts(self.folder / 'quads.k')), report['patches'])
+        self.assertEqual(len(set(shell_parts(self.folder / 'patches.k'))), report['patches'])
+        self.run_program('map', 'patches.k', '-p', 'blocks.k', '-o', 'mesh.vtk', '-s', '1', '--json', 'map.json')
+        mapped = json.loads((self.folder / 'map.json').read_text())
+        self.assertEqual(mapped['hexes'], 8 * report['block_structure']['blocks'])
+        self.assertEqual(mapped['largest_snap'], 0)
+        self.run_program('polycube', blob, '--patches', 'again.k', '--blocks', 'again_blocks.k', '--threads', '1')
+        for one, other in (('patches.k', 'again.k'), ('blocks.k', 'again_blocks.k')):
+            self.assertEqual((self.folder / one).read_bytes(), (self.folder / other).read_bytes())
+
+    def test_polycube_without_anything_to_write_is_wrong_usage(self):
+        self.run_program('polycube', ROD / 'rod_patches.k', code=2)
+        self.run_program('polycube', ROD / 'rod_patches.k', '--blocks', 'b.k', '-c', '1', code=2)
+
 
 if __name__ == '__main__':
     unittest.main()

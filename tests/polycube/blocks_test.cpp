@@ -93,21 +93,21 @@ std::vector<Shape> shapes() {
         {"plus", cells_of({3, 3, 3}, [](int i, int j, int k) { return (i == 1) + (j == 1) + (k == 1) >= 2; }),
          7, 2},
         {"frame", cells_of({3, 3, 1}, [](int i, int j, int) { return i != 1 || j != 1; }), 8, 0},
-        {"through_hole",
-         cells_of({4, 5, 3}, [](int i, int j, int) { return i != 1 || j < 2 || j > 3; }), 8, 0},
+        {"through_hole", cells_of({4, 5, 3}, [](int i, int j, int) { return i != 1 || j < 2 || j > 3; }), 8,
+         0},
         {"blind_pocket",
          cells_of({4, 5, 3}, [](int i, int j, int k) { return i != 1 || j < 2 || j > 3 || k == 0; }), 17, 2},
         {"stairs", cells_of({3, 3, 3}, [](int i, int j, int k) { return i + j + k <= 2; }), 10, 2},
-        {"hollow", cells_of({4, 4, 4},
-                            [](int i, int j, int k) {
-                                return i < 1 || i > 2 || j < 1 || j > 2 || k < 1 || k > 2;
-                            }),
+        {"hollow",
+         cells_of({4, 4, 4},
+                  [](int i, int j, int k) { return i < 1 || i > 2 || j < 1 || j > 2 || k < 1 || k > 2; }),
          26, 4},
         {"grate", cells_of({5, 2, 3}, [](int i, int, int k) { return i % 2 == 0 || k % 2 == 0; }), 13, -2},
     };
 }
 
-BlocksResult blocks_of(const PolygonSoup& soup, const BlocksOptions& options = {}, const Context& context = {}) {
+BlocksResult blocks_of(const PolygonSoup& soup, const BlocksOptions& options = {},
+                       const Context& context = {}) {
     const TriangleMesh mesh = make_triangle_mesh(soup);
     Segmentation segmentation;
     for (const int part : soup.parts) segmentation.labels.push_back(part - 1);
@@ -135,7 +135,8 @@ TEST_P(BlocksOfShapes, AreTheFewestThatConformAndFitTheirPatches) {
     EXPECT_TRUE(cube.report.violations.empty());
     const BoundaryQuads quads = boundary_quads(result.blocks);
     EXPECT_EQ(quads.size(), cube.report.patches);
-    EXPECT_EQ(static_cast<int>(quads.boundary_vertices.size()) - static_cast<int>(quads.size()), shape().euler);
+    EXPECT_EQ(static_cast<int>(quads.boundary_vertices.size()) - static_cast<int>(quads.size()),
+              shape().euler);
 
     // Cutting moves nothing: old vertices stay, and the enclosed volume with them.
     for (std::size_t v = 0; v < soup.points.size(); ++v)
@@ -148,16 +149,16 @@ TEST_P(BlocksOfShapes, AreTheFewestThatConformAndFitTheirPatches) {
     const MapResult mapped = map(result.patches, result.blocks, {.level = 1});
     EXPECT_EQ(mapped.mesh.cell_count(), 8 * shape().blocks);
     EXPECT_EQ(mapped.report.largest_snap, 0.0);
-    EXPECT_EQ(summarize_quality(mapped.mesh).inverted, 0U);
+    EXPECT_EQ(summarize(mapped.mesh).inverted, 0U);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, BlocksOfShapes,
                          testing::Combine(testing::Range(std::size_t{0}, std::size_t{11}),
                                           testing::Values(1, 3), testing::Bool()),
-                         [](const auto& info) {
-                             return std::string(shapes()[std::get<0>(info.param)].name) + "_" +
-                                    std::to_string(std::get<1>(info.param)) +
-                                    (std::get<2>(info.param) ? "_bent" : "");
+                         [](const auto& of) {
+                             return std::string(shapes()[std::get<0>(of.param)].name) + "_" +
+                                    std::to_string(std::get<1>(of.param)) +
+                                    (std::get<2>(of.param) ? "_bent" : "");
                          });
 
 TEST(Blocks, OfABallWithSixLabelsIsOne) {
@@ -206,8 +207,8 @@ TEST(Blocks, AreNotMadeOfLabelsWithoutAPolycube) {
 }
 
 TEST(Blocks, NameTheChartsOfACycleOfOrders) {
-    // A ball cut like a cube whose +X and -X labels are exchanged: every side that ends there would have to run
-    // against its direction.
+    // A ball cut like a cube whose +X and -X labels are exchanged: every side that ends there would have to
+    // run against its direction.
     PolygonSoup ball = test::ball(4);
     for (int& part : ball.parts) part = part == 1 ? 2 : part == 2 ? 1 : part;
     const auto result = blocks_of(ball);

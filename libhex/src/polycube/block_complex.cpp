@@ -88,7 +88,8 @@ class Builder {
 
     /// Unit face of the grid: `plane` along `axis`, cells j and k along the two axes after it.
     std::size_t face_index(int axis, int plane, int j, int k) const {
-        return (at(plane) * at(cells_along((axis + 1) % 3)) + at(j)) * at(cells_along((axis + 2) % 3)) + at(k);
+        return (at(plane) * at(cells_along((axis + 1) % 3)) + at(j)) * at(cells_along((axis + 2) % 3)) +
+               at(k);
     }
     int chart_at(int axis, int plane, int j, int k) const {
         if (j < 0 || k < 0 || j >= cells_along((axis + 1) % 3) || k >= cells_along((axis + 2) % 3)) return -1;
@@ -98,7 +99,8 @@ class Builder {
     /// Which chart covers each unit face: winding numbers of the charts' polygons.
     void cover_faces() {
         for (int axis = 0; axis < 3; ++axis)
-            chart_of_face_[at(axis)].assign(result_.planes[at(axis)].size() * at(cells_along((axis + 1) % 3)) *
+            chart_of_face_[at(axis)].assign(result_.planes[at(axis)].size() *
+                                                at(cells_along((axis + 1) % 3)) *
                                                 at(cells_along((axis + 2) % 3)),
                                             -1);
         for (std::size_t c = 0; c < graph_.charts.size(); ++c) cover(static_cast<int>(c));
@@ -196,10 +198,11 @@ class Builder {
                         const bool in_above = inside(above);
                         const bool in_below = inside(step(above, axis, -1));
                         const int chart = chart_at(axis, p, j, k);
-                        const bool expected = chart >= 0 && (sign_of(label(chart)) > 0
-                                                                 ? in_below && !in_above
-                                                                 : in_above && !in_below);
-                        if (chart >= 0 ? !expected : in_above != in_below) conflict(std::max(chart, 0), std::max(chart, 0));
+                        const bool expected =
+                            chart >= 0 &&
+                            (sign_of(label(chart)) > 0 ? in_below && !in_above : in_above && !in_below);
+                        if (chart >= 0 ? !expected : in_above != in_below)
+                            conflict(std::max(chart, 0), std::max(chart, 0));
                     }
                 }
             }
@@ -315,8 +318,7 @@ class Builder {
         for (const auto& [root, box] : boxes) {
             std::size_t volume = 1;
             for (std::size_t a = 0; a < 3; ++a) volume *= at(box.high[a] - box.low[a] + 1);
-            if (volume != box.cells)
-                throw Error(ErrorKind::no_result, "a block of the polycube is no box");
+            if (volume != box.cells) throw Error(ErrorKind::no_result, "a block of the polycube is no box");
             std::array<int, 8> block{};
             for (std::size_t k = 0; k < 8; ++k) {
                 const auto& uvw = hexahedron::corner_uvw[k];

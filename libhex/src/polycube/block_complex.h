@@ -1,5 +1,6 @@
 /// \file block_complex.h
-/// The inside of an integer polycube: cells between the planes of its charts, and the fewest conforming blocks.
+/// The inside of an integer polycube: cells between the planes of its charts, and the fewest conforming
+/// blocks.
 #pragma once
 
 #include "polycube/chart_graph.h"
@@ -17,8 +18,8 @@ struct ChartConflict {
 
 /// A straight line of block faces' edges across a chart, from boundary to boundary.
 struct ChartSegment {
-    int axis = 0;   ///< it runs along this axis
-    int plane = 0;  ///< plane index on the chart's other axis
+    int axis = 0;                      ///< it runs along this axis
+    int plane = 0;                     ///< plane index on the chart's other axis
     std::array<int, 2> ends = {0, 0};  ///< plane indices along `axis`, ascending
     /// Block vertices at the ends.
     std::array<int, 2> vertices = {-1, -1};
@@ -40,15 +41,15 @@ struct BlockComplex {
     std::vector<ChartConflict> conflicts;  ///< when not empty, all below is meaningless
 
     std::size_t cells = 0;
-    std::vector<std::array<int, 8>> blocks;     ///< block vertices in VTK order, axes u, v, w = x, y, z
-    std::vector<std::array<int, 3>> positions;  ///< plane indices of each block vertex
-    std::vector<std::vector<SideNode>> side_nodes;  ///< of each side, from its first to its last vertex
+    std::vector<std::array<int, 8>> blocks;           ///< block vertices in VTK order, axes u, v, w = x, y, z
+    std::vector<std::array<int, 3>> positions;        ///< plane indices of each block vertex
+    std::vector<std::vector<SideNode>> side_nodes;    ///< of each side, from its first to its last vertex
     std::vector<std::vector<ChartSegment>> segments;  ///< of each chart
 };
 
 /// Compresses the grid to the planes of the charts, fills the cells inside, and joins them to the blocks of
-/// the base complex: the cells are parted only by the walls that continue charts from the concave edges into the
-/// inside, straight on to the boundary.
+/// the base complex: the cells are parted only by the walls that continue charts from the concave edges into
+/// the inside, straight on to the boundary.
 BlockComplex build_blocks(const ChartGraph& graph, const std::vector<int>& coordinates);
 
 }  // namespace hex

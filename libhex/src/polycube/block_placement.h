@@ -16,8 +16,8 @@ struct BlockQuality {
 
 BlockQuality block_quality(const HexMesh& blocks);
 
-/// Inner vertices at the mean of their neighbours, then moved one by one to where the worst corner of the blocks
-/// around is best. `free` marks inner vertices.
+/// Inner vertices at the mean of their neighbours, then moved one by one to where the worst corner of the
+/// blocks around is best. `free` marks inner vertices.
 void place_inner_vertices(HexMesh& blocks, const std::vector<char>& free);
 
 }  // namespace hex

@@ -82,8 +82,7 @@ class BlockMaker {
             const double a = 0.5 * (p[1] - p[0]).cross(p[2] - p[0]).norm();
             const int chart = graph_.layout.patch_of_triangle[at(f.idx())];
             area[at(chart)] += a;
-            level_[at(chart)] +=
-                a * ((p[0] + p[1] + p[2]) / 3.0)[axis_of(graph_.charts[at(chart)].label)];
+            level_[at(chart)] += a * ((p[0] + p[1] + p[2]) / 3.0)[axis_of(graph_.charts[at(chart)].label)];
         }
         for (std::size_t c = 0; c < area.size(); ++c)
             if (area[c] > 0.0) level_[c] /= area[c];
@@ -98,7 +97,8 @@ class BlockMaker {
             std::string names;
             for (const int chart : cycle) names += (names.empty() ? "" : " below ") + name(chart);
             const ChartSide& side = graph_.sides[at(order.side)];
-            violations.push_back({Severity::error, "infeasible-orders",
+            violations.push_back({Severity::error,
+                                  "infeasible-orders",
                                   "the side between charts " + name(side.charts[0]) + " and " +
                                       name(side.charts[1]) + " puts chart " + name(order.low) +
                                       " below chart " + name(order.high) + ", but others put " + names,
@@ -118,7 +118,8 @@ class BlockMaker {
             if (!part_conflicts(orders)) break;
         }
         for (const ChartConflict& conflict : complex_.conflicts)
-            violations.push_back({Severity::error, "charts-overlap",
+            violations.push_back({Severity::error,
+                                  "charts-overlap",
                                   conflict.chart == conflict.other
                                       ? "chart " + name(conflict.chart) + " is folded over itself"
                                       : "charts " + name(conflict.chart) + " and " + name(conflict.other) +
@@ -159,14 +160,12 @@ class BlockMaker {
         return any;
     }
 
-    double place(int axis, int plane) const {
-        return unit_ * complex_.planes[at(axis)][at(plane)];
-    }
+    double place(int axis, int plane) const { return unit_ * complex_.planes[at(axis)][at(plane)]; }
 
     // --- surface -------------------------------------------------------------------------------------------
 
-    /// Makes the block vertices on the sides vertices of the mesh: at the length of the chain that their place
-    /// between the ends gives.
+    /// Makes the block vertices on the sides vertices of the mesh: at the length of the chain that their
+    /// place between the ends gives.
     void insert_side_nodes() {
         for (const auto f : work_.faces()) work_.data(f).part = graph_.layout.patch_of_triangle[at(f.idx())];
         vertex_of_node_.assign(complex_.positions.size(), -1);
@@ -186,8 +185,8 @@ class BlockMaker {
         }
     }
 
-    /// Returns the index in the chain of a vertex near `share` of its length, after `last` and with room for `more`
-    /// others behind it.
+    /// Returns the index in the chain of a vertex near `share` of its length, after `last` and with room for
+    /// `more` others behind it.
     std::size_t insert_node(Chain& chain, double share, std::size_t last, std::size_t more) {
         std::vector<double> lengths = {0.0};
         for (std::size_t i = 1; i < chain.size(); ++i)
@@ -311,8 +310,7 @@ class BlockMaker {
             }
             patches += parts;
             for (std::size_t n = 0; n < piece.block_nodes.size(); ++n)
-                vertex_of_node_[at(piece.block_nodes[n])] =
-                    piece.vertices[at(piece.result.node_vertex[n])];
+                vertex_of_node_[at(piece.block_nodes[n])] = piece.vertices[at(piece.result.node_vertex[n])];
         }
         report().patches = at(patches);
         result_.patches = make_triangle_mesh(soup);
@@ -337,10 +335,10 @@ class BlockMaker {
         report().min_scaled_jacobian = quality.min_scaled_jacobian;
         report().inverted_corners = quality.inverted_corners;
         if (quality.inverted_corners > 0)
-            report().violations.push_back({Severity::warning, "inverted-block",
-                                           std::to_string(quality.inverted_blocks.size()) +
-                                               " blocks have an inverted or flat corner",
-                                           "block", quality.inverted_blocks});
+            report().violations.push_back(
+                {Severity::warning, "inverted-block",
+                 std::to_string(quality.inverted_blocks.size()) + " blocks have an inverted or flat corner",
+                 "block", quality.inverted_blocks});
     }
 
     /// A start for the inner vertices: the middle of the others.

@@ -98,14 +98,15 @@ class Cutter {
                 seen.insert(walk.idx());
                 loop.push_back(walk);
                 walk = mesh_.next_halfedge_handle(walk);
-                while (!on_rim(walk))
-                    walk = mesh_.next_halfedge_handle(mesh_.opposite_halfedge_handle(walk));
+                while (!on_rim(walk)) walk = mesh_.next_halfedge_handle(mesh_.opposite_halfedge_handle(walk));
             } while (walk != h);
         }
         return loops;
     }
 
-    double length(Halfedge h) const { return (point(mesh_.to_vertex_handle(h)) - point(mesh_.from_vertex_handle(h))).norm(); }
+    double length(Halfedge h) const {
+        return (point(mesh_.to_vertex_handle(h)) - point(mesh_.from_vertex_handle(h))).norm();
+    }
     Vec3 point(Vertex v) const { return to_eigen(mesh_.point(v)); }
 
     void mark_rim(const std::vector<std::vector<Halfedge>>& loops) {
@@ -138,7 +139,8 @@ class Cutter {
         const Face right = mesh_.face_handle(mesh_.opposite_halfedge_handle(h));
         const int left_region = left.is_valid() ? region_of_[at(left.idx())] : -1;
         const int right_region = right.is_valid() ? region_of_[at(right.idx())] : -1;
-        const Vertex left_apex = left.is_valid() ? mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h)) : Vertex();
+        const Vertex left_apex =
+            left.is_valid() ? mesh_.to_vertex_handle(mesh_.next_halfedge_handle(h)) : Vertex();
         const Vertex v = mesh_.add_vertex(to_openmesh(p));
         uv_.push_back(place);
         fixed_.push_back(0);
@@ -172,8 +174,7 @@ class Cutter {
         ++result_.steps;
         const bool disk = is_disk(loops);
         const CutLine line = take_line(region, loops);
-        std::vector<Vertex> path =
-            disk ? cut_in_disk(line, loops.front()) : cut_along_edges(line);
+        std::vector<Vertex> path = disk ? cut_in_disk(line, loops.front()) : cut_along_edges(line);
         place_crossings(line, path);
         divide(region, line);
     }
@@ -263,8 +264,8 @@ class Cutter {
 
     // --- straight cuts -------------------------------------------------------------------------------------
 
-    /// Cuts along the segment between the two ends of the line in the plane. Returns the vertices along it, or
-    /// nothing when the walk gets stuck.
+    /// Cuts along the segment between the two ends of the line in the plane. Returns the vertices along it,
+    /// or nothing when the walk gets stuck.
     std::optional<std::vector<Vertex>> cut_straight(const CutLine& line) {
         const Vertex start(nodes_[at(line.nodes.front())].vertex);
         const Vertex goal(nodes_[at(line.nodes.back())].vertex);
@@ -382,8 +383,8 @@ class Cutter {
 
     // --- one line alone ------------------------------------------------------------------------------------
 
-    /// The line to cut first, removed from the region: the one that divides the rim most evenly; in a region that is no
-    /// disk one that joins two loops, if there is one.
+    /// The line to cut first, removed from the region: the one that divides the rim most evenly; in a region
+    /// that is no disk one that joins two loops, if there is one.
     CutLine take_line(Region& region, const std::vector<std::vector<Halfedge>>& loops) const {
         std::map<int, std::pair<int, double>> place;  // loop and length along it, by node
         std::vector<double> total;
@@ -506,8 +507,9 @@ class Cutter {
             } else {
                 const double inner = std::clamp(t, 0.2, 0.8);
                 const Halfedge h = mesh_.find_halfedge(path[i], path[i + 1]);
-                crossing = split(mesh_.edge_handle(h), (1.0 - inner) * point(path[i]) + inner * point(path[i + 1]),
-                                 0.5 * (uv_[at(path[i].idx())] + uv_[at(path[i + 1].idx())]));
+                crossing =
+                    split(mesh_.edge_handle(h), (1.0 - inner) * point(path[i]) + inner * point(path[i + 1]),
+                          0.5 * (uv_[at(path[i].idx())] + uv_[at(path[i + 1].idx())]));
                 path.insert(path.begin() + static_cast<std::ptrdiff_t>(i) + 1, crossing);
             }
             nodes_[at(line.nodes[k])].vertex = crossing.idx();
@@ -521,7 +523,8 @@ class Cutter {
         for (const CutLine& line : region.lines) {
             std::size_t crossing = 0;
             for (std::size_t k = 1; k + 1 < line.nodes.size(); ++k)
-                if (std::find(cut.nodes.begin(), cut.nodes.end(), line.nodes[k]) != cut.nodes.end()) crossing = k;
+                if (std::find(cut.nodes.begin(), cut.nodes.end(), line.nodes[k]) != cut.nodes.end())
+                    crossing = k;
             if (crossing == 0) {
                 pieces.push_back(line);
                 continue;
@@ -559,8 +562,8 @@ class Cutter {
         for (Region& part : parts) open_.push_back(std::move(part));
     }
 
-    /// A piece lies in the part that holds both its ends. When both ends lie on several parts, the side of the
-    /// cut decides.
+    /// A piece lies in the part that holds both its ends. When both ends lie on several parts, the side of
+    /// the cut decides.
     void assign_piece(CutLine& piece, const CutLine& cut, std::vector<Region>& parts,
                       const std::map<int, std::set<int>>& parts_of_node) const {
         std::vector<int> common;
@@ -629,9 +632,9 @@ class Cutter {
     TriangleMesh mesh_;
     std::vector<CutNode> nodes_;
     std::vector<Vec2> uv_;
-    std::vector<char> fixed_;         ///< on the rim of the current region
-    std::vector<int> node_at_;        ///< node of each vertex, or -1
-    std::vector<int> line_of_edge_;   ///< number of the line that an edge was cut for, or -1
+    std::vector<char> fixed_;        ///< on the rim of the current region
+    std::vector<int> node_at_;       ///< node of each vertex, or -1
+    std::vector<int> line_of_edge_;  ///< number of the line that an edge was cut for, or -1
     std::vector<int> region_of_;
     int current_ = 0;
     int last_region_ = 0;

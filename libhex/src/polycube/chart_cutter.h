@@ -1,6 +1,6 @@
 /// \file chart_cutter.h
-/// Cuts the triangles of a chart along lines given by their ends on its boundary, so that every part between the lines
-/// is a union of triangles.
+/// Cuts the triangles of a chart along lines given by their ends on its boundary, so that every part between
+/// the lines is a union of triangles.
 #pragma once
 
 #include <hex/base/linear_algebra.h>
@@ -10,8 +10,8 @@
 
 namespace hex {
 
-/// A line across the chart through nodes: its ends on the boundary, between them the crossings with other lines.
-/// Two lines cross at most once. A line is straight and parallel to an axis of the plane.
+/// A line across the chart through nodes: its ends on the boundary, between them the crossings with other
+/// lines. Two lines cross at most once. A line is straight and parallel to an axis of the plane.
 struct CutLine {
     std::vector<int> nodes;  ///< indices into CutProblem::nodes
 };
@@ -37,10 +37,11 @@ struct CutResult {
     bool direct = false;           ///< all lines at once, in the chart's own polygon
 };
 
-/// The chart is mapped harmonically onto its polygon (nodes at their places, boundary between them by length). If no
-/// triangle flips, all lines are cut in this map. Otherwise a line is cut alone, straight in a map of the region
-/// onto a disk (always one-to-one), or, where the region is no disk, along a shortest path of edges, and the
-/// two halves are done in the same way. Cuts split edges; nearly met vertices are moved onto the line, in the plane only.
+/// The chart is mapped harmonically onto its polygon (nodes at their places, boundary between them by
+/// length). If no triangle flips, all lines are cut in this map. Otherwise a line is cut alone, straight in a
+/// map of the region onto a disk (always one-to-one), or, where the region is no disk, along a shortest path
+/// of edges, and the two halves are done in the same way. Cuts split edges; nearly met vertices are moved
+/// onto the line, in the plane only.
 ///
 /// Throws Error{no_result} when a line cannot be cut.
 CutResult cut_chart(const CutProblem& problem);

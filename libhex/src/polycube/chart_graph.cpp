@@ -58,7 +58,8 @@ class GraphBuilder {
             if (graph_.layout.patches[p].loops.empty())
                 violate("chart-without-corners", name(chart) + " is a whole closed surface", {chart});
             if (twice)
-                violate("chart-touches-itself", name(chart) + " passes a vertex of its boundary twice", {chart});
+                violate("chart-touches-itself", name(chart) + " passes a vertex of its boundary twice",
+                        {chart});
         }
     }
 

@@ -17,8 +17,8 @@ namespace hex {
 struct ChartSide {
     std::array<int, 2> charts = {-1, -1};  ///< [0] lies on the left when the chain is walked as stored
     Chain chain;
-    int axis = 0;        ///< the direction of the side, 0..2
-    int direction = 1;   ///< +1 when the coordinate along `axis` grows along the chain, else -1
+    int axis = 0;       ///< the direction of the side, 0..2
+    int direction = 1;  ///< +1 when the coordinate along `axis` grows along the chain, else -1
     std::array<int, 2> ends = {-1, -1};  ///< charts of this axis at the first and at the last vertex
     double length = 0.0;                 ///< of the chain
     double rise = 0.0;                   ///< signed difference of the coordinate along `axis`
@@ -44,8 +44,8 @@ struct ChartGraph {
     std::vector<int> same_plane;
     /// Sides whose direction in space was overruled because their charts could not close with it.
     std::vector<int> turned_sides;
-    /// Errors that leave no polycube: `chart-without-corners`, `opposite-labels-adjacent`, `side-without-end`,
-    /// `chart-touches-itself`.
+    /// Errors that leave no polycube: `chart-without-corners`, `opposite-labels-adjacent`,
+    /// `side-without-end`, `chart-touches-itself`.
     Diagnostics violations;
 };
 

@@ -8,13 +8,13 @@
 
 namespace hex {
 
-/// Places the vertices of `faces` that are not `fixed` by a discrete harmonic map: with cotangent weights, and
-/// when a triangle comes out flipped (exact predicate) with mean-value, then with uniform weights. `uv` and
-/// `fixed` are indexed by the vertices of the mesh; `uv` holds the boundary. Returns whether all triangles are
-/// counter-clockwise.
+/// Places the vertices of `faces` that are not `fixed` by a discrete harmonic map: with cotangent weights,
+/// and when a triangle comes out flipped (exact predicate) with mean-value, then with uniform weights. `uv`
+/// and `fixed` are indexed by the vertices of the mesh; `uv` holds the boundary. Returns whether all
+/// triangles are counter-clockwise.
 ///
-/// With a convex boundary, and no inner edge that joins two vertices on one straight part of it, positive weights
-/// always succeed but for rounding (Tutte 1963, Floater 2003); with another boundary they often do.
+/// With a convex boundary, and no inner edge that joins two vertices on one straight part of it, positive
+/// weights always succeed but for rounding (Tutte 1963, Floater 2003); with another boundary they often do.
 bool flatten_region(const TriangleMesh& mesh, const std::vector<TriangleMesh::FaceHandle>& faces,
                     const std::vector<char>& fixed, std::vector<Vec2>& uv);
 

@@ -8,8 +8,8 @@ namespace hex {
 
 /// The coordinate of `low` must be smaller than that of `high`.
 struct PlaneOrder {
-    int low = 0;   ///< a chart
-    int high = 0;  ///< a chart of the same axis
+    int low = 0;          ///< a chart
+    int high = 0;         ///< a chart of the same axis
     double length = 0.0;  ///< how far apart they are in space
     double weight = 1.0;
     int side = -1;  ///< the side that asks for it, or none

@@ -21,7 +21,8 @@ void describe(CommandLine& line) {
     line.add_output("polycube surface: one quad per patch", false);
     line.add("patches", value<std::string>(),
              "write the triangles cut into four-sided patches, made from labels; part id = patch");
-    line.add("blocks", value<std::string>(), "write the hexahedral blocks of those patches, made from labels");
+    line.add("blocks", value<std::string>(),
+             "write the hexahedral blocks of those patches, made from labels");
     line.add("unit", value<double>("H")->default_value(0.0),
              "length of one unit of the integer polycube, for --patches and --blocks; 0: from the volume");
     line.add("corner-files,c", value<int>("0|1")->default_value(0),
@@ -150,12 +151,13 @@ int run(CommandLine& line) {
 const RegisterCommand registered(
     {.name = "polycube",
      .order = 20,
-     .summary = "make the polycube surface of a surface cut into four-sided patches",
+     .summary = "make the polycube surface of four-sided patches, or patches and blocks of labels",
      .description =
          "A patch is a connected component of triangles of equal part id. When a patch is not a disk\n"
          "with four corners, every one is named, nothing is written, and the exit code is 4.\n"
          "With --patches or --blocks the part ids are labels (`segment`): the polycube is made from them,\n"
-         "filled with blocks, and the triangles are cut into one four-sided patch for each quad of the blocks.",
+         "filled with blocks, and the triangles are cut into one four-sided patch for each quad of the "
+         "blocks.",
      .sample_runs = {"hexspline polycube -i part_patches.k -o part_polycube.k",
                      "hexspline polycube -i rod_initial_read.k -o rod_polycube_structure.k -c 1",
                      "hexspline polycube -i part_segment.k --patches part_patches.k --blocks part_blocks.k"},
