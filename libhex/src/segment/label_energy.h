@@ -38,15 +38,30 @@ class LabelEnergy {
     /// `labels` has one label 0..5 for each triangle. Linear in the number of triangles.
     LabelScore evaluate(const std::vector<int>& labels);
 
+    /// Prepares for many labellings that differ from this one only in the triangles of `region` (ascending).
+    /// Linear in the number of triangles.
+    void prepare(const std::vector<int>& labels, const std::vector<int>& region);
+    /// The score of one of those. Linear in the sizes of the region and of the boundaries.
+    LabelScore evaluate_prepared(const std::vector<int>& labels);
+
   private:
-    void flood_charts(const std::vector<int>& labels);
-    void collect_boundary_edges(const std::vector<int>& labels, LabelScore& score);
+    int find(int node);
+    void add_boundary_edge(int edge, LabelScore& score);
     void walk(int vertex, int edge, const std::vector<int>& labels, LabelScore& score);
 
     const LabelSurface* surface_;
-    std::vector<int> chart_;
+    // What prepare() leaves: outside the region, triangles of equal label hang together in pieces; a node is
+    // a piece or a triangle of the region.
+    std::vector<int> region_;
+    std::vector<int> node_;         ///< of each triangle
+    std::vector<int> inner_edges_;  ///< edges that touch the region
+    std::vector<int> outer_edges_;  ///< boundary edges that do not
+    int nodes_ = 0;
+    double outer_infidelity_ = 0.0;
+
+    std::vector<int> parent_;  ///< of nodes, in a union-find forest: charts
+    std::vector<int> sides_;   ///< at the roots
     std::vector<int> stack_;
-    std::vector<int> sides_;
     std::vector<int> boundary_edges_;
     std::vector<char> visited_;
     std::vector<int> degree_;                   ///< boundary edges at each vertex

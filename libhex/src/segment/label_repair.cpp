@@ -1,5 +1,6 @@
 #include "segment/label_repair.h"
 
+#include "segment/label_reroute.h"
 #include "segment/repair_operators.h"
 
 #include <hex/base/parallel.h>
@@ -18,7 +19,7 @@ std::size_t at(int index) {
 
 /// A place to mend: a chart, a boundary or a vertex, by what is wrong there.
 struct Place {
-    enum class Kind { few_sided_chart, opposite_boundary, crossing, spare_chart };
+    enum class Kind { few_sided_chart, opposite_boundary, crossing, spare_chart, turning_boundary };
     Kind kind = Kind::few_sided_chart;
     int index = 0;
     std::size_t size = 0;  ///< triangles or edges; small ones are mended first
@@ -34,6 +35,8 @@ const char* reason_of(Place::Kind kind) {
             return "corner-valence";
         case Place::Kind::spare_chart:
             return "small-chart";
+        case Place::Kind::turning_boundary:
+            return "boundary-turns";
     }
     return "";
 }
@@ -58,10 +61,15 @@ std::vector<Place> invalid_places(const LabelCharts& charts) {
 }
 
 /// What would be nicer, when all is valid.
-std::vector<Place> untidy_places(const LabelCharts& charts) {
+std::vector<Place> untidy_places(const LabelSurface& surface, const LabelCharts& charts) {
     std::vector<Place> places;
     for (const LabelCorner& corner : charts.corners) {
         if (corner.valence > 3) places.push_back({Place::Kind::crossing, corner.vertex, 0});
+    }
+    for (std::size_t b = 0; b < charts.boundaries.size(); ++b) {
+        const LabelBoundary& boundary = charts.boundaries[b];
+        if (count_turns(surface, charts, boundary) > 0)
+            places.push_back({Place::Kind::turning_boundary, static_cast<int>(b), boundary.triangles.size()});
     }
     const std::size_t small = charts.chart_of_triangle.size() / 20 + 1;
     for (std::size_t c = 0; c < charts.charts.size(); ++c) {
@@ -79,7 +87,7 @@ class Repair {
            const Context& context)
         : mesh_(mesh), surface_(surface), context_(context), energies_([&] { return Trial(surface); }) {
         result_.labels = std::move(labels);
-        result_.score = score_of({});
+        result_.score = LabelEnergy(surface).evaluate(result_.labels);
     }
 
     LabelRepair run() {
@@ -91,8 +99,8 @@ class Repair {
                 if (!mend(invalid_places) && !mend_in_two_steps()) break;
             }
         }
-        for (int pass = 0; pass < 4; ++pass) {
-            if (!mend(untidy_places)) break;
+        for (int pass = 0; pass < 8; ++pass) {
+            if (!mend([&](const LabelCharts& charts) { return untidy_places(surface_, charts); })) break;
         }
         return std::move(result_);
     }
@@ -103,6 +111,7 @@ class Repair {
         LabelEnergy energy;
         std::vector<int> labels;
         std::size_t version = 0;
+        std::size_t batch = 0;  ///< what the energy is prepared for
     };
     struct Best {
         std::size_t index = 0;
@@ -111,23 +120,44 @@ class Repair {
 
     double energy_of(const LabelScore& score) const { return score.energy(weight_); }
 
-    LabelScore score_of(const LabelChange& change) {
+    /// The labels of this thread, those of the result.
+    Trial& trial() {
         Trial& trial = energies_.local();
         if (trial.version != version_) {
             trial.labels = result_.labels;
             trial.version = version_;
+            trial.batch = 0;
         }
-        for (const auto& [t, label] : change.labels) trial.labels[at(t)] = label;
-        const LabelScore score = trial.energy.evaluate(trial.labels);
-        for (const auto& [t, label] : change.labels) trial.labels[at(t)] = result_.labels[at(t)];
-        return score;
+        return trial;
     }
 
     std::vector<LabelScore> scores_of(const std::vector<LabelChange>& changes) {
         context_.check_cancelled();
+        // Small changes share one region; a large one has its own.
+        const std::size_t large = result_.labels.size() / 40 + 50;
+        std::vector<int> region;
+        for (const LabelChange& change : changes) {
+            if (change.labels.size() > large) continue;
+            for (const auto& [t, label] : change.labels) region.push_back(t);
+        }
+        std::sort(region.begin(), region.end());
+        region.erase(std::unique(region.begin(), region.end()), region.end());
+        ++batch_;
         std::vector<LabelScore> scores(changes.size());
         parallel_for(
-            changes.size(), [&](std::size_t i) { scores[i] = score_of(changes[i]); }, 1);
+            changes.size(),
+            [&](std::size_t i) {
+                const LabelChange& change = changes[i];
+                Trial& t = trial();
+                const bool shared = change.labels.size() <= large;
+                if (shared && t.batch != batch_) t.energy.prepare(t.labels, region);
+                t.batch = shared ? batch_ : 0;
+                for (const auto& [triangle, label] : change.labels) t.labels[at(triangle)] = label;
+                scores[i] = shared ? t.energy.evaluate_prepared(t.labels) : t.energy.evaluate(t.labels);
+                for (const auto& [triangle, label] : change.labels)
+                    t.labels[at(triangle)] = result_.labels[at(triangle)];
+            },
+            1);
         return scores;
     }
 
@@ -160,6 +190,12 @@ class Repair {
                         std::vector<LabelChange>& out) {
         if (place.kind == Place::Kind::crossing) {
             operators.fill_corner(place.index, out);
+            return;
+        }
+        if (place.kind == Place::Kind::turning_boundary) {
+            const LabelBoundary& boundary = charts.boundaries[at(place.index)];
+            operators.fill_corner(boundary.vertices.front(), out);
+            operators.fill_corner(boundary.vertices.back(), out);
             return;
         }
         std::vector<int> beside;
@@ -201,7 +237,7 @@ class Repair {
 
     static std::vector<int> charts_at(const LabelCharts& charts, const Place& place) {
         if (place.kind == Place::Kind::crossing) return {};
-        if (place.kind == Place::Kind::opposite_boundary) {
+        if (place.kind == Place::Kind::opposite_boundary || place.kind == Place::Kind::turning_boundary) {
             const auto& pair = charts.boundaries[at(place.index)].charts;
             return {pair[0], pair[1]};
         }
@@ -223,6 +259,8 @@ class Repair {
             const bool chart =
                 place.kind == Place::Kind::few_sided_chart || place.kind == Place::Kind::spare_chart;
             if (chart) propose_removal(operators, place, changes);
+            if (place.kind == Place::Kind::turning_boundary)
+                straighten_boundary(surface_, result_.labels, charts, place.index, changes);
             std::optional<Best> best = best_of(changes);
             const bool cheap = best && best->score.infidelity - result_.score.infidelity < cheap_removal;
             if (!cheap && place.kind != Place::Kind::spare_chart) {
@@ -234,7 +272,8 @@ class Repair {
             for (const auto& [t, label] : change.labels) {
                 stale[at(charts.chart_of_triangle[at(t)])] = 1;
                 for (const int n : surface_.arrays.neighbours[at(t)])
-                    if (n >= 0) stale[at(charts.chart_of_triangle[at(n)])] = 1;
+                    if (n >= 0 && result_.labels[at(n)] == label)
+                        stale[at(charts.chart_of_triangle[at(n)])] = 1;
             }
             accept(change, best->score, place.kind);
             mended = true;
@@ -316,6 +355,7 @@ class Repair {
     const Context& context_;
     tbb::enumerable_thread_specific<Trial> energies_;
     std::size_t version_ = 1;
+    std::size_t batch_ = 0;
     double weight_ = 1.0;  ///< of validity
     LabelRepair result_;
 };

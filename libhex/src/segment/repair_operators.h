@@ -46,11 +46,12 @@ class RepairOperators {
     /// it does, bounded by creases.
     void split_chart(int chart, std::vector<LabelChange>& out) const;
 
+    /// Completes the change to whole polygons, drops what is no change, keeps it when something is left.
+    void finish(LabelChange change, std::vector<LabelChange>& out) const;
+
   private:
     void add(const char* repair, const std::vector<int>& triangles, int label,
              std::vector<LabelChange>& out) const;
-    /// Completes the change to whole polygons, drops what is no change, keeps it when something is left.
-    void finish(LabelChange change, std::vector<LabelChange>& out) const;
     /// Rings of triangles, by vertices, around the seeds' triangles; `inside(t)` tells where to go.
     template <class Inside>
     std::vector<std::vector<int>> rings(const std::vector<int>& vertices, int count,
