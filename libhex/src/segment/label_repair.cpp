@@ -61,7 +61,7 @@ std::vector<Place> invalid_places(const LabelCharts& charts) {
 }
 
 /// What would be nicer, when all is valid.
-std::vector<Place> untidy_places(const LabelSurface& surface, const LabelCharts& charts) {
+std::vector<Place> untidy_places(const LabelSurface& surface, const LabelCharts& charts, bool small_charts) {
     std::vector<Place> places;
     for (const LabelCorner& corner : charts.corners) {
         if (corner.valence > 3) places.push_back({Place::Kind::crossing, corner.vertex, 0});
@@ -72,7 +72,7 @@ std::vector<Place> untidy_places(const LabelSurface& surface, const LabelCharts&
             places.push_back({Place::Kind::turning_boundary, static_cast<int>(b), boundary.triangles.size()});
     }
     const std::size_t small = charts.chart_of_triangle.size() / 20 + 1;
-    for (std::size_t c = 0; c < charts.charts.size(); ++c) {
+    for (std::size_t c = 0; small_charts && c < charts.charts.size(); ++c) {
         const std::size_t size = charts.charts[c].triangles.size();
         if (size <= small) places.push_back({Place::Kind::spare_chart, static_cast<int>(c), size});
     }
@@ -93,14 +93,21 @@ class Repair {
     LabelRepair run() {
         constexpr int most_passes = 60;
         // Validity at a moderate price first; at any price where that is not enough.
-        for (const double weight : {0.1, 1.0}) {
+        for (const double weight : {0.02, 0.1, 1.0}) {
             weight_ = weight;
             for (int pass = 0; pass < most_passes && !result_.score.valid(); ++pass) {
-                if (!mend(invalid_places) && !mend_in_two_steps()) break;
+                if (!mend(invalid_places) && !(weight > 0.05 && mend_in_two_steps())) break;
             }
         }
-        for (int pass = 0; pass < 8; ++pass) {
-            if (!mend([&](const LabelCharts& charts) { return untidy_places(surface_, charts); })) break;
+        // Charts go last: a corner or a boundary may be mended for less.
+        constexpr int most_tidy_passes = 8;
+        for (const bool small_charts : {false, true}) {
+            for (int pass = 0; pass < most_tidy_passes; ++pass) {
+                if (!mend([&](const LabelCharts& charts) {
+                        return untidy_places(surface_, charts, small_charts);
+                    }))
+                    break;
+            }
         }
         return std::move(result_);
     }
@@ -244,38 +251,64 @@ class Repair {
         return {place.index};
     }
 
-    /// One pass over the places. True when something was mended.
+    /// The best change for one place, when there is one that lowers the energy.
+    std::optional<std::pair<LabelChange, LabelScore>> best_change(const LabelCharts& charts,
+                                                                  const Place& place) {
+        const RepairOperators operators(surface_, result_.labels, charts);
+        std::vector<LabelChange> changes;
+        if (place.kind == Place::Kind::few_sided_chart || place.kind == Place::Kind::spare_chart)
+            propose_removal(operators, place, changes);
+        if (place.kind == Place::Kind::turning_boundary)
+            straighten_boundary(surface_, result_.labels, charts, place.index, changes);
+        std::optional<Best> best = best_of(changes);
+        const bool cheap = best && best->score.infidelity - result_.score.infidelity < cheap_removal;
+        if (!cheap && place.kind != Place::Kind::spare_chart) {
+            propose(operators, charts, place, changes);
+            best = best_of(changes);
+        }
+        if (!best) return std::nullopt;
+        return std::pair{std::move(changes[best->index]), best->score};
+    }
+
+    /// One pass over the places, the greatest gains first, those that cost faith later. True when something
+    /// was mended.
     template <class Find>
     bool mend(const Find& find) {
+        struct Job {
+            Place place;
+            LabelChange change;
+            double gain;
+            double cost;
+            double rank() const { return gain - 3.0 * std::max(0.0, cost); }
+        };
         const LabelCharts charts = find_charts(mesh_, {result_.labels});
-        const auto places = find(charts);
+        std::vector<Job> jobs;
+        for (const Place& place : find(charts)) {
+            if (auto best = best_change(charts, place))
+                jobs.push_back({place, std::move(best->first),
+                                energy_of(result_.score) - energy_of(best->second),
+                                best->second.infidelity - result_.score.infidelity});
+        }
+        std::stable_sort(jobs.begin(), jobs.end(),
+                         [](const Job& a, const Job& b) { return a.rank() > b.rank(); });
         std::vector<char> stale(charts.charts.size(), 0);
         bool mended = false;
-        for (const Place& place : places) {
-            const auto own = charts_at(charts, place);
+        for (const Job& job : jobs) {
+            const auto own = charts_at(charts, job.place);
             if (std::any_of(own.begin(), own.end(), [&](int c) { return stale[at(c)]; })) continue;
-            const RepairOperators operators(surface_, result_.labels, charts);
-            std::vector<LabelChange> changes;
-            const bool chart =
-                place.kind == Place::Kind::few_sided_chart || place.kind == Place::Kind::spare_chart;
-            if (chart) propose_removal(operators, place, changes);
-            if (place.kind == Place::Kind::turning_boundary)
-                straighten_boundary(surface_, result_.labels, charts, place.index, changes);
-            std::optional<Best> best = best_of(changes);
-            const bool cheap = best && best->score.infidelity - result_.score.infidelity < cheap_removal;
-            if (!cheap && place.kind != Place::Kind::spare_chart) {
-                propose(operators, charts, place, changes);
-                best = best_of(changes);
-            }
-            if (!best) continue;
-            const LabelChange& change = changes[best->index];
+            LabelChange change = job.change;
+            std::erase_if(change.labels,
+                          [&](const auto& c) { return result_.labels[at(c.first)] == c.second; });
+            if (change.labels.empty()) continue;
+            const LabelScore score = scores_of({change}).front();
+            if (energy_of(result_.score) - energy_of(score) < 0.5 * job.gain) continue;
             for (const auto& [t, label] : change.labels) {
                 stale[at(charts.chart_of_triangle[at(t)])] = 1;
                 for (const int n : surface_.arrays.neighbours[at(t)])
                     if (n >= 0 && result_.labels[at(n)] == label)
                         stale[at(charts.chart_of_triangle[at(n)])] = 1;
             }
-            accept(change, best->score, place.kind);
+            accept(change, score, job.place.kind);
             mended = true;
         }
         return mended;
