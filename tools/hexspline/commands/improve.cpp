@@ -21,9 +21,9 @@ void describe(CommandLine& line) {
     line.add_input("hexahedral mesh");
     line.add_output("improved mesh");
     line.add_switch("Quality,Q", "accepted and without effect, as in the paper's command lines");
-    line.add(
-        "method,m", value<std::string>("NAME")->default_value("smooth"),
-        "laplace, pillow, smooth, optimize (or 0, 1, 2, 3 as in the paper), untangle, auto, or a plug-in's");
+    line.add("method,m", value<std::string>("NAME")->default_value("smooth"),
+             "laplace, pillow, smooth, optimize (or 0, 1, 2, 3 as in the paper), untangle, auto, snap, or a "
+             "plug-in's");
     line.add("count,n", value<int>(), "layers of pillow (1), sweeps of the others (50)");
     line.add("step,p", value<double>(),
              "step in (0, 1]: share of the move that is made; optimize: the first step (0.01; laplace: 1)");

@@ -1,0 +1,72 @@
+/// \file voxel.h
+/// The way that always ends: the cells of an axis-aligned grid that stand for a closed surface, with its
+/// topology.
+#pragma once
+
+#include <hex/base/context.h>
+#include <hex/base/diagnostics.h>
+#include <hex/surface/mesh_types.h>
+#include <hex/volume/hex_mesh.h>
+
+#include <array>
+#include <cstddef>
+
+namespace hex {
+
+struct VoxelOptions {
+    /// Mean edge length of the cells, in units of the surface, >= 0. 0: such that `target_cells` come out,
+    /// but no more than 1/30 of the diagonal of the surface's bounding box.
+    double cell_size = 0.0;
+    /// Wished number of hexahedra, counting one more on every boundary face (the layer that `snap` puts
+    /// around), > 0. Without a `cell_size` only.
+    std::size_t target_cells = 6000;
+    /// Where the topology of the cells is not the surface's, cells get smaller until there are more than
+    /// this many hexahedra, again counting the layer.
+    std::size_t most_cells = 60000;
+    /// Where the topology is right, but parts of the surface are farther from the cells than a cell's size,
+    /// cells get smaller until there are more than this many hexahedra, counting the layer; then the try with
+    /// the smallest distance counts.
+    std::size_t most_cells_for_distance = 20000;
+};
+
+struct VoxelReport {
+    std::array<int, 3> grid = {0, 0, 0};    ///< cells along x, y, z
+    double cell_size = 0.0;                 ///< wished size of the accepted try
+    std::array<int, 3> planes = {0, 0, 0};  ///< grid planes that lie on flat faces of the surface
+    std::size_t cells = 0;
+    std::size_t tries = 0;    ///< grids, the accepted one included
+    std::size_t repairs = 0;  ///< cells added or removed where the boundary was not a manifold
+    std::size_t specks = 0;   ///< cells of pieces and cavities that the surface does not have
+    std::size_t grown = 0;    ///< cells added for thin parts of the solid
+    std::size_t carved = 0;   ///< cells removed for thin gaps
+    /// Largest distance of the surface to the boundary of the cells, in units of the surface; 2 `cell_size`
+    /// stands for more.
+    double distance = 0.0;
+    std::size_t surfaces = 0;      ///< connected components of the boundary: those of the surface
+    int euler_characteristic = 0;  ///< of the boundary: that of the surface
+};
+
+struct VoxelResult {
+    HexMesh cells;
+    VoxelReport report;
+};
+
+/// Cells of a grid whose boundary is a 2-manifold with as many components as the surface, each with the
+/// Euler characteristic of its counterpart. The solid is where a ray meets the surface an odd number of
+/// times, so the orientation of shells plays no role.
+///
+/// Grid planes are put on large flat faces that are perpendicular to an axis, and spaced evenly between them.
+/// A cell is taken when at least half of it is inside (27 samples, found by exact predicates). At every
+/// vertex the taken ones of the eight cells must form a disk of boundary faces that some direction sees
+/// from outside (so that a layer can be put around); cells are added or removed where not. Then cells are
+/// added along thin parts, and removed along thin gaps, where that does not change the topology (simple
+/// points: Bertrand and Malandain, A new characterization of three-dimensional simple points, Pattern
+/// Recognition Letters 15, 1994). If the topology is not that of the surface, the same is tried with
+/// smaller cells.
+///
+/// Throws Error{usage} for options out of range, Error{bad_input} for a surface without triangles or without
+/// extent along an axis, Error{no_result} naming a place when `most_cells` do not suffice.
+VoxelResult voxel_blocks(const TriangleMesh& surface, const VoxelOptions& options = {},
+                         const Context& context = {});
+
+}  // namespace hex

@@ -1,0 +1,259 @@
+/// The method `snap`: the boundary of a valid mesh that is near a surface is pulled onto it, and no element
+/// is ever inverted on the way.
+
+#include "improve/sliding_descent.h"
+#include "improve/snap_targets.h"
+#include "improve/star.h"
+#include "improve/sweep.h"
+
+#include <hex/base/error.h>
+#include <hex/base/parallel.h>
+#include <hex/improve/corner_energies.h>
+#include <hex/improve/improve.h>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace hex {
+namespace {
+
+using improving::SnapTarget;
+using improving::SnapTargets;
+
+/// Wished thickness of the layer, in shares of the edges of the quad that a cell of it stands on.
+constexpr double layer_thickness = 0.5;
+/// Strength of the pull to the targets, relative to the shape of the cells, round by round.
+constexpr std::array<double, 10> pulls = {1.0, 2.0, 4.0, 10.0, 25.0, 60.0, 150.0, 400.0, 1000.0, 3000.0};
+constexpr int iterations_per_pull = 20;
+/// Share of the pull that also acts along the surface.
+constexpr double tangential_share = 0.02;
+/// A boundary vertex may go to its place on the surface if the scaled Jacobians around it stay above this,
+/// or do not fall.
+constexpr double worth_keeping = 0.1;
+constexpr int most_attaching_passes = 6;
+
+/// Edge lengths that the cells should have, along their three axes.
+std::vector<Vec3> wished_boxes(const HexMesh& before, const HexMesh& layered) {
+    constexpr std::array<Eigen::Index, 12> axis = {0, 1, 0, 1, 2, 2, 2, 2, 0, 1, 0, 1};
+    std::vector<Vec3> boxes(layered.cell_count(), Vec3::Zero());
+    parallel_for(boxes.size(), [&](std::size_t c) {
+        const HexCell& cell = layered.cell_array()[c];
+        const bool in_layer = c >= before.cell_count();
+        Vec3& box = boxes[c];
+        for (std::size_t e = 0; e < 12; ++e) {
+            const auto& [a, b] = hexahedron::edge_corners[e];
+            if (in_layer && (a > 3 || b > 3)) continue;
+            box[axis[e]] += (before.position(cell[static_cast<std::size_t>(a)]) -
+                             before.position(cell[static_cast<std::size_t>(b)]))
+                                .norm() /
+                            (in_layer ? 2.0 : 4.0);
+        }
+        if (in_layer) box.z() = layer_thickness * std::min(box.x(), box.y());
+    });
+    return boxes;
+}
+
+class Snapper {
+  public:
+    Snapper(const HexMesh& before, const HexMesh& layered, const ImproveOptions& options,
+            const Context& context)
+        : context_(context),
+          options_(options),
+          surface_(*options.surface),
+          edges_(edge_table(layered)),
+          boundary_(boundary_quads(layered)),
+          boxes_(wished_boxes(before, layered)),
+          mesh_(layered, edges_, nullptr, no_boundary(layered)),
+          targets_(layered.vertex_count()),
+          stiffness_(layered.vertex_count(), 0.0) {
+        for (const VertexId v : boundary_.boundary_vertices) {
+            double size = 0.0;
+            for (const std::uint32_t corner : mesh_.corners_at(v))
+                size += std::min(boxes_[corner / 8].x(), boxes_[corner / 8].y());
+            const auto count = static_cast<double>(mesh_.corners_at(v).size());
+            size /= count;
+            stiffness_[v.index()] = 1.0 / (size * size * count);
+        }
+    }
+
+    void run() {
+        for (std::size_t round = 0; round < pulls.size(); ++round) {
+            context_.progress("snap", static_cast<double>(round) / (pulls.size() + 1));
+            aim();
+            pull(pulls[round]);
+        }
+        attach();
+    }
+
+    ImproveResult result(const HexMesh& input) {
+        ImproveResult result{mesh_.mesh(), {}};
+        result.report.history = history_;
+        double largest = 0.0;
+        aim();
+        for (const VertexId v : boundary_.boundary_vertices)
+            largest = std::max(largest, (targets_[v.index()].point - mesh_.mesh().position(v)).norm());
+        char text[160];
+        std::snprintf(text, sizeof text,
+                      "boundary vertices are at most %.3g %% of the diagonal off the surface; the layer has "
+                      "%zu elements",
+                      100.0 * largest / diagonal(), mesh_.mesh().cell_count() - input.cell_count());
+        result.report.diagnostics.push_back({Severity::note, "surface-distance", text, "", {}});
+        return result;
+    }
+
+  private:
+    /// To the minimiser every vertex is an inner one: what holds the boundary is the pull.
+    const BoundaryQuads& no_boundary(const HexMesh& mesh) {
+        free_.on_boundary.assign(mesh.vertex_count(), 0);
+        return free_;
+    }
+    double diagonal() const {
+        BoundingBox box;
+        for (const auto v : surface_mesh().vertices()) box.add(to_eigen(surface_mesh().point(v)));
+        return box.diagonal();
+    }
+    const TriangleMesh& surface_mesh() const { return *options_.surface; }
+
+    /// Targets for the boundary as it is now.
+    void aim() {
+        const std::vector<Vec3> normals = improving::boundary_normals(mesh_.mesh(), boundary_);
+        parallel_for(
+            boundary_.boundary_vertices.size(),
+            [&](std::size_t i) {
+                const VertexId v = boundary_.boundary_vertices[i];
+                const Vec3& p = mesh_.mesh().position(v);
+                SnapTarget& target = targets_[v.index()];
+                target = surface_.closest(p, normals[v.index()]);
+                const Vec3 off = p - target.point;
+                const double distance = off.norm();
+                if (distance * distance * stiffness_[v.index()] > 1e-8) target.axis = off / distance;
+            },
+            64);
+    }
+
+    /// Minimises shape and pull together; infinite, and so never accepted, where a cell is inverted.
+    void pull(double strength) {
+        const FoldoverEnergy shape{0.0, 1.0};
+        const auto energy = [&](std::size_t c, const HexCorners& corners, HexCorners* gradient) {
+            double value = shape.evaluate(corners, boxes_[c], gradient);
+            if (!std::isfinite(value)) return value;
+            if (scaled_jacobian(corners) <= improving::rounding)
+                return std::numeric_limits<double>::infinity();
+            const HexCell& cell = mesh_.mesh().cell_array()[c];
+            for (std::size_t k = 0; k < 8; ++k) {
+                const double stiff = strength * stiffness_[cell[k].index()];
+                if (stiff == 0.0) continue;
+                const SnapTarget& target = targets_[cell[k].index()];
+                const Vec3 off = corners[k] - target.point;
+                const Vec3 along = off.dot(target.axis) * target.axis;
+                const Vec3 held = target.along ? Vec3(off - along) : along;
+                const Vec3 force = (1.0 - tangential_share) * held + tangential_share * off;
+                value += stiff * off.dot(force);
+                if (gradient != nullptr) (*gradient)[k] += 2.0 * stiff * force;
+            }
+            return value;
+        };
+        improving::DescentOptions descent;
+        descent.most_iterations = iterations_per_pull;
+        descent.relative_gain = 1e-5;
+        (void)improving::descend(mesh_, energy, descent, context_);
+        record(0);
+    }
+
+    void record(std::size_t moved) {
+        ImproveRecord now = improving::record_of(scaled_jacobians(mesh_.mesh(), context_));
+        now.sweep = static_cast<int>(history_.size()) + 1;
+        now.moved = moved;
+        history_.push_back(now);
+    }
+
+    /// Puts boundary vertices exactly on the surface where that spoils nothing.
+    void attach() {
+        const CompressedRows<improving::StarCell> stars = improving::vertex_stars(mesh_.mesh());
+        const auto classes = improving::independent_classes(mesh_.mesh(), boundary_.on_boundary);
+        for (int pass = 0; pass < most_attaching_passes; ++pass) {
+            aim();
+            std::size_t moved = 0;
+            for (const auto& members : classes) {
+                context_.check_cancelled();
+                moved += parallel_reduce(
+                    members.size(), std::size_t{0},
+                    [&](std::size_t count, std::size_t i) {
+                        return count + attach(members[i], stars[members[i].index()]);
+                    },
+                    [](std::size_t a, std::size_t b) { return a + b; }, 16);
+            }
+            record(moved);
+            if (moved == 0) break;
+        }
+    }
+
+    bool attach(VertexId v, std::span<const improving::StarCell> cells) {
+        const Vec3 here = mesh_.mesh().position(v);
+        const Vec3& there = targets_[v.index()].point;
+        if ((there - here).isZero(0.0)) return false;
+        improving::Star star;
+        star.gather(mesh_.mesh(), cells);
+        const double now = star.quality(here).min;
+        for (const double share : {1.0, 0.5, 0.25}) {
+            const Vec3 p = share == 1.0 ? there : Vec3(here + share * (there - here));
+            const double then = star.quality(p).min;
+            if (then < now && then < worth_keeping) continue;
+            mesh_.move(v, {p, Vec3::Zero(), 0});
+            return true;
+        }
+        return false;
+    }
+
+    const Context& context_;
+    const ImproveOptions& options_;
+    SnapTargets surface_;
+    EdgeTable edges_;
+    BoundaryQuads boundary_;
+    BoundaryQuads free_;
+    std::vector<Vec3> boxes_;
+    improving::SlidingMesh mesh_;
+    std::vector<SnapTarget> targets_;
+    std::vector<double> stiffness_;  // 1 / (size^2 number of cells); 0 inside
+    std::vector<ImproveRecord> history_;
+};
+
+class SnapImprover : public Improver {
+  public:
+    ImproveResult improve(const HexMesh& mesh, const ImproveOptions& options,
+                          const Context& context) const override {
+        if (options.surface == nullptr)
+            throw Error(ErrorKind::usage, "snap has no surface to snap to", {}, "give it with --surface");
+        const QualitySummary given = summarize(mesh, context);
+        if (given.inverted > 0)
+            throw Error(ErrorKind::bad_input,
+                        "snap starts from a mesh without inverted elements, this one has " +
+                            std::to_string(given.inverted),
+                        "cell " + std::to_string(given.worst.index()), "use untangle first");
+        HexMesh layered = mesh;
+        if (options.count != 0)
+            layered = improvers().make("pillow")->improve(mesh, layers(options), context).mesh;
+        const QualitySummary start = summarize(layered, context);
+        if (start.inverted > 0)
+            throw Error(ErrorKind::no_result, "no layer of elements fits around the mesh",
+                        "cell " + std::to_string(start.worst.index()), "use -n 0 to snap without a layer");
+        Snapper snapper(mesh, layered, options, context);
+        snapper.run();
+        return snapper.result(mesh);
+    }
+
+  private:
+    static ImproveOptions layers(const ImproveOptions& options) {
+        ImproveOptions layer = options;
+        layer.method = "pillow";
+        layer.count = 1;
+        return layer;
+    }
+};
+
+const Register<Improver, SnapImprover> registered(
+    improvers(), "snap",
+    "a layer around the mesh, then its boundary is pulled onto the surface; inverts nothing");
+
+}  // namespace
+}  // namespace hex
