@@ -444,7 +444,7 @@ VoxelResult build(const TriangleMesh& surface, const VoxelOptions& options, cons
         throw Error(ErrorKind::bad_input, "the surface is flat", {}, "give one that encloses a volume");
     const Target target(surface);
     double size = options.cell_size > 0.0 ? options.cell_size
-                                          : size_for(options.target_cells, std::abs(enclosed_volume(surface)),
+                                          : size_for(options.target_cells, volume_of(surface, diagonal),
                                                      area_of(surface), diagonal);
     std::optional<VoxelResult> best;
     std::size_t tries = 0;
