@@ -2,7 +2,7 @@
 /// Which boundary edges of a hexahedral mesh follow which sharp curves of a surface.
 #pragma once
 
-#include "improve/search_set.h"
+#include "surface/search_set.h"
 #include "improve/surface_curves.h"
 
 #include <memory>

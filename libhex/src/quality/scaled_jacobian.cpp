@@ -1,4 +1,5 @@
 #include "quality/scaled_jacobian_kernel.h"
+#include "quality/scaled_jacobian_range.h"
 
 #include <hex/base/parallel.h>
 #include <hex/quality/scaled_jacobian.h>
@@ -6,37 +7,27 @@
 namespace hex {
 namespace {
 
-using quality::lane_count;
-using quality::Lanes;
-
 quality::Vector<double> vector_of(const Vec3& p) {
     return {p.x(), p.y(), p.z()};
 }
 
-/// Scaled Jacobians of `lane_count` cells side by side; a short block repeats its last cell.
-void fill_block(const HexMesh& mesh, std::size_t first, std::size_t count, double* values) {
-    std::array<quality::Vector<Lanes>, 8> corners;
-    for (int lane = 0; lane < lane_count; ++lane) {
-        const std::size_t cell = first + std::min(static_cast<std::size_t>(lane), count - 1);
-        for (std::size_t i = 0; i < 8; ++i) {
-            const Vec3& p = mesh.position(mesh.cell_array()[cell][i]);
-            corners[i].x[lane] = p.x();
-            corners[i].y[lane] = p.y();
-            corners[i].z[lane] = p.z();
-        }
-    }
-    const Lanes result = quality::scaled_jacobian<Lanes>(corners);
-    for (std::size_t i = 0; i < count; ++i) values[i] = result[static_cast<Eigen::Index>(i)];
-}
-
 /// Without opening a task arena of its own.
-std::vector<double> compute_scaled_jacobians(const HexMesh& mesh) {
+std::vector<double> compute_scaled_jacobians(const HexMesh& mesh, const Context& context) {
+    static const quality::RangeFunction wide = quality::scaled_jacobians_avx2();
+    const quality::RangeFunction fill = wide != nullptr ? wide : quality::scaled_jacobians_portable;
+    constexpr std::size_t chunk = 1024, chunks_between_looks = 1024;
     std::vector<double> values(mesh.cell_count());
-    const std::size_t blocks = (values.size() + lane_count - 1) / lane_count;
-    parallel_for(blocks, [&](std::size_t block) {
-        const std::size_t first = block * lane_count;
-        fill_block(mesh, first, std::min<std::size_t>(lane_count, values.size() - first), &values[first]);
-    });
+    const std::size_t chunks = (values.size() + chunk - 1) / chunk;
+    for (std::size_t first = 0; first < chunks; first += chunks_between_looks) {
+        context.check_cancelled();
+        parallel_for(
+            std::min(chunks_between_looks, chunks - first),
+            [&](std::size_t i) {
+                const std::size_t start = (first + i) * chunk;
+                fill(mesh, start, std::min(start + chunk, values.size()), values);
+            },
+            4);
+    }
     return values;
 }
 
@@ -74,7 +65,7 @@ double corner_scaled_jacobian(const std::array<Vec3, 8>& corners, int corner) {
 }
 
 std::vector<double> scaled_jacobians(const HexMesh& mesh, const Context& context) {
-    return with_threads(context, [&] { return compute_scaled_jacobians(mesh); });
+    return with_threads(context, [&] { return compute_scaled_jacobians(mesh, context); });
 }
 
 QualitySummary summarize(const HexMesh& mesh, const Context& context) {

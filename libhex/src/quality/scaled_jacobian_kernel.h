@@ -1,8 +1,11 @@
 /// \file scaled_jacobian_kernel.h
 /// The arithmetic of the scaled Jacobian, written once for one element (`Real` = double) and for several side
-/// by side (`Real` = a fixed-size Eigen array), with the same operations in the same order and so the same
-/// bits.
+/// by side (`Real` = a fixed-size Eigen array, or the processor's wide numbers), with the same operations in
+/// the same order and so the same bits. Everything is inlined, so that a caller compiled for a newer
+/// processor gets all of it compiled for that processor.
 #pragma once
+
+#include "quality/vector.h"
 
 #include <hex/volume/hexahedron.h>
 
@@ -11,6 +14,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 namespace hex::quality {
 
@@ -19,38 +23,26 @@ inline constexpr int lane_count = 4;
 using Lanes = Eigen::Array<double, lane_count, 1>;
 
 template <class Real>
-struct Vector {
-    Real x, y, z;
-};
-
-template <class Real>
-Vector<Real> difference(const Vector<Real>& a, const Vector<Real>& b) {
-    return {a.x - b.x, a.y - b.y, a.z - b.z};
+[[gnu::always_inline]] inline Vector<Real> difference(const Vector<Real>& a, const Vector<Real>& b) {
+    return a - b;
 }
 
-template <class Real>
-Real squared_length(const Vector<Real>& a) {
-    return a.x * a.x + a.y * a.y + a.z * a.z;
-}
-
-template <class Real>
-Real determinant(const Vector<Real>& a, const Vector<Real>& b, const Vector<Real>& c) {
-    return a.x * (b.y * c.z - b.z * c.y) + a.y * (b.z * c.x - b.x * c.z) + a.z * (b.x * c.y - b.y * c.x);
-}
-
-inline double smaller(double a, double b) {
+[[gnu::always_inline]] inline double smaller(double a, double b) {
     return std::min(a, b);
 }
-inline Lanes smaller(const Lanes& a, const Lanes& b) {
+[[gnu::always_inline]] inline Lanes smaller(const Lanes& a, const Lanes& b) {
     return a.min(b);
 }
 
-/// numerator / sqrt(square), and 0 where the square is not positive.
-inline double over_root(double numerator, double square) {
-    return square > 0.0 ? numerator / std::sqrt(square) : 0.0;
+/// The largest square of three lengths that is a number: beyond it the elements are too large to be measured.
+inline constexpr double largest_square = std::numeric_limits<double>::max();
+
+/// numerator / sqrt(square), and 0 where the square is not positive or overflows.
+[[gnu::always_inline]] inline double over_root(double numerator, double square) {
+    return square > 0.0 && square <= largest_square ? numerator / std::sqrt(square) : 0.0;
 }
-inline Lanes over_root(const Lanes& numerator, const Lanes& square) {
-    return (square > 0.0).select(numerator / square.sqrt(), Lanes::Zero());
+[[gnu::always_inline]] inline Lanes over_root(const Lanes& numerator, const Lanes& square) {
+    return (square > 0.0 && square <= largest_square).select(numerator / square.sqrt(), Lanes::Zero());
 }
 
 /// The three edges at a corner in right-handed order, and whether an even number of them points away from it.
@@ -76,34 +68,36 @@ inline constexpr std::array<CornerEdges, 8> corner_edges = make_corner_edges();
 
 /// det(a,b,c) / (|a||b||c|), 0 when one of them has no length.
 template <class Real>
-Real scaled_determinant(const Vector<Real>& a, const Vector<Real>& b, const Vector<Real>& c) {
+[[gnu::always_inline]] inline Real scaled_determinant(const Vector<Real>& a, const Vector<Real>& b,
+                                                      const Vector<Real>& c) {
     const Real square = squared_length(a) * squared_length(b) * squared_length(c);
-    return over_root(determinant(a, b, c), square);
+    return over_root(Real(determinant(a, b, c)), square);
 }
 
-/// The principal axes of the trilinear map at the centre, times four: sums of the four edges of a direction.
+/// The corners a less the corners b, one after the other as Verdict adds them.
 template <class Real>
-Real centre_scaled_jacobian(const std::array<Vector<Real>, 8>& p) {
-    const auto axis = [&](int a0, int a1, int a2, int a3, int b0, int b1, int b2, int b3) {
-        const auto component = [&](auto member) -> Real {
-            const auto at = [&](int i) -> const Real& { return p[static_cast<std::size_t>(i)].*member; };
-            return (at(a0) + at(a1) + at(a2) + at(a3)) - (at(b0) + at(b1) + at(b2) + at(b3));
-        };
-        return Vector<Real>{component(&Vector<Real>::x), component(&Vector<Real>::y),
-                            component(&Vector<Real>::z)};
-    };
-    return scaled_determinant<Real>(axis(1, 2, 5, 6, 0, 3, 4, 7), axis(2, 3, 6, 7, 0, 1, 4, 5),
-                                    axis(4, 5, 6, 7, 0, 1, 2, 3));
+[[gnu::always_inline]] inline Vector<Real> principal_axis(const std::array<Vector<Real>, 8>& p,
+                                                          const std::array<std::size_t, 4>& a,
+                                                          const std::array<std::size_t, 4>& b) {
+    return p[a[0]] + p[a[1]] + p[a[2]] + p[a[3]] - p[b[0]] - p[b[1]] - p[b[2]] - p[b[3]];
+}
+
+/// Of the principal axes: four times the derivatives of the trilinear map at the centre.
+template <class Real>
+[[gnu::always_inline]] inline Real centre_scaled_jacobian(const std::array<Vector<Real>, 8>& p) {
+    return scaled_determinant<Real>(principal_axis<Real>(p, {1, 2, 5, 6}, {0, 3, 4, 7}),
+                                    principal_axis<Real>(p, {2, 3, 6, 7}, {0, 1, 4, 5}),
+                                    principal_axis<Real>(p, {4, 5, 6, 7}, {0, 1, 2, 3}));
 }
 
 /// Smallest of the eight corners' scaled Jacobians and the centre's.
 template <class Real>
-Real scaled_jacobian(const std::array<Vector<Real>, 8>& p) {
+[[gnu::always_inline]] inline Real scaled_jacobian(const std::array<Vector<Real>, 8>& p) {
     std::array<Vector<Real>, 12> edge;
     std::array<Real, 12> square;
     for (std::size_t e = 0; e < 12; ++e) {
         const auto& ends = hexahedron::edge_corners[e];
-        edge[e] = difference(p[static_cast<std::size_t>(ends[1])], p[static_cast<std::size_t>(ends[0])]);
+        edge[e] = p[static_cast<std::size_t>(ends[1])] - p[static_cast<std::size_t>(ends[0])];
         square[e] = squared_length(edge[e]);
     }
     Real smallest = centre_scaled_jacobian(p);

@@ -1,124 +1,196 @@
 /// Sample runs:
 ///   hexspline check part.vtk
-///   hexspline check -i part.vtk --min-scaled-jacobian 0.3 --json -
+///   hexspline check part.vtk --metric scaled_jacobian:0.2 --metric aspect_ratio::10 --bad-share 0.01
+///   hexspline check part.vtk --profile ls-dyna --surface part.stl --max-surface-distance 0.5 --json -
+///   --junit check.xml
 
+#include "hexspline/check_report.h"
 #include "hexspline/command.h"
 #include "hexspline/inputs.h"
 
 #include <hex/base/error.h>
-#include <hex/quality/scaled_jacobian.h>
-#include <hex/volume/topology.h>
+#include <hex/io/hex_file.h>
+#include <hex/io/output_file.h>
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <iostream>
 #include <string>
 
 namespace cli {
 namespace {
 
-struct Findings {
-    hex::QualitySummary summary;
-    std::vector<std::int64_t> inverted;  ///< cells with a scaled Jacobian <= 0
-    hex::Diagnostics diagnostics;
-};
+using hex::HexMetric;
+using Strings = std::vector<std::string>;
 
 void describe(CommandLine& line) {
     line.add_input("hexahedral mesh");
-    line.add("min-scaled-jacobian", value<double>("X"),
-             "exit with 1 when a scaled Jacobian is below X (without it: when one is not positive)");
+    line.add("min-scaled-jacobian", value<double>("X"), "the same as --metric scaled_jacobian:X");
+    line.add(
+        "metric", value<Strings>("NAME[:MIN[:MAX]]")->composing(),
+        "report a metric, and fail when an element is outside of the limits (repeatable; all = report all)");
+    line.add("percentile", value<Strings>("NAME:PCT:MIN[:MAX]")->composing(),
+             "fail when this percentile of a metric is outside of the limits (repeatable)");
+    line.add("bad-share", value<double>("S"), "share of elements, 0..1, that may be outside of a --metric");
+    line.add("profile", value<std::string>("NAME"), "start from the limits of " + profile_names());
+    line.add("config", value<std::string>("FILE"), "start from the limits of a configuration file (JSON)");
+    line.add("forbid", value<Strings>("KIND,KIND")->composing(),
+             "fail for duplicate-nodes, unused-nodes, open-boundary, pinched-nodes, several-components");
+    line.add("duplicate-tolerance", value<double>("T")->default_value(1e-9, "1e-9"),
+             "nodes nearer than T times the diagonal are at the same place");
+    line.add("surface", value<std::string>("FILE"), "measure the distance of the boundary from this surface");
+    line.add("max-surface-distance", value<double>("PCT"),
+             "fail when that distance is more than PCT percent of the surface's diagonal");
+    line.add("baseline", value<std::string>("FILE"),
+             "fail when something is worse than in this earlier --json");
+    line.add("baseline-tolerance", value<double>("T")->default_value(1e-9, "1e-9"),
+             "relative change that is not worse yet");
+    line.add("worst", value<int>("N")->default_value(5), "list the N worst elements of each metric");
+    line.add("junit", value<std::string>("FILE"), "write the demands as JUnit XML");
+    line.add("sarif", value<std::string>("FILE"), "write what failed as SARIF 2.1.0");
+    line.add("markdown", value<std::string>("FILE"), "write a summary as Markdown");
+    line.add("vtu", value<std::string>("FILE"), "write the mesh with its metrics as cell data");
 }
 
-Findings examine(const hex::HexMesh& mesh, const hex::Context& context) {
+/// Profile or configuration file first, then the options.
+Demands demands_of(const CommandLine& line) {
+    if (line.given("profile") && line.given("config"))
+        throw hex::Error(hex::ErrorKind::usage, "--profile and --config exclude each other", {},
+                         "name the profile in the configuration file");
+    Demands demands;
+    if (line.given("profile")) demands = profile(line.get<std::string>("profile"));
+    if (line.given("config")) demands = read_demands(line.get<std::string>("config"));
+    if (line.given("min-scaled-jacobian")) {
+        const double least = line.get<double>("min-scaled-jacobian");
+        line.require_range("min-scaled-jacobian", least, -1.0, 1.0);
+        demands.add({HexMetric::scaled_jacobian, least, {}, {}, {}});
+    }
+    for (const std::string& text : line.get_or<Strings>("metric", {}))
+        for (const MetricLimit& limit : parse_metric(text)) demands.add(limit);
+    for (const std::string& text : line.get_or<Strings>("percentile", {}))
+        demands.add(parse_percentile(text));
+    if (line.given("bad-share")) {
+        demands.bad_share = line.get<double>("bad-share");
+        line.require_range("bad-share", demands.bad_share, 0.0, 1.0);
+    }
+    for (const std::string& text : line.get_or<Strings>("forbid", {}))
+        demands.forbidden.merge(parse_defects(text));
+    if (line.given("surface")) demands.surface = line.get<std::string>("surface");
+    if (line.given("baseline")) demands.baseline = line.get<std::string>("baseline");
+    if (line.given("max-surface-distance")) {
+        demands.max_surface_distance = line.get<double>("max-surface-distance");
+        line.require_range("max-surface-distance", *demands.max_surface_distance, 0.0, 1e30);
+    }
+    if (demands.max_surface_distance && !demands.surface)
+        throw hex::Error(hex::ErrorKind::usage, "a largest distance is asked for, but there is no --surface");
+    return demands;
+}
+
+/// What is measured: what the demands need, and a few that everybody wants to see.
+std::set<HexMetric> metrics_of(const Demands& demands) {
+    std::set<HexMetric> metrics = {HexMetric::scaled_jacobian, HexMetric::shape, HexMetric::skew,
+                                   HexMetric::aspect_ratio, HexMetric::volume};
+    for (const MetricLimit& limit : demands.limits) metrics.insert(limit.metric);
+    return metrics;
+}
+
+Findings examine(const CommandLine& line, const hex::HexMesh& mesh, const Demands& demands,
+                 std::size_t worst) {
+    const hex::Context& context = line.context();
     Findings findings;
-    const std::vector<double> values = hex::scaled_jacobians(mesh, context);
-    findings.summary = hex::summarize(mesh, values, context);
-    for (std::size_t c = 0; c < values.size(); ++c)
-        if (values[c] <= 0.0) findings.inverted.push_back(static_cast<std::int64_t>(c));
-    findings.diagnostics = hex::inspect(mesh);
+    for (const HexMetric metric : metrics_of(demands)) {
+        context.check_cancelled();
+        Measured& measured = findings.metrics[metric];
+        measured.values = hex::evaluate(metric, mesh, context);
+        measured.statistics = hex::statistics(measured.values, context);
+        measured.worst = hex::worst_cells(measured.values, hex::info(metric).better, worst);
+    }
+    const auto& scaled = findings.metrics.at(HexMetric::scaled_jacobian).values;
+    findings.summary = hex::summarize(mesh, scaled, context);
+    for (const hex::CellId c : mesh.cells())
+        if (scaled[c.index()] <= 0.0) findings.inverted.push_back(c);
+    findings.defects = hex::find_defects(mesh, line.get<double>("duplicate-tolerance"), context);
+    if (demands.surface && !mesh.empty())
+        findings.distance = hex::surface_distance(mesh, load_triangles(line, *demands.surface), context);
     return findings;
 }
 
-/// Ten lines of two bins each, with a bar of up to 50 characters.
-std::string histogram_text(const hex::QualitySummary& summary) {
-    const auto& bins = summary.histogram;
-    const std::size_t largest = std::max<std::size_t>(1, *std::max_element(bins.begin(), bins.end()));
-    std::size_t first = 0;
-    while (first + 1 < bins.size() && bins[first] == 0) ++first;
-    std::string text;
-    for (std::size_t i = first; i < bins.size(); ++i) {
-        const double lower = -1.0 + 2.0 * static_cast<double>(i) / static_cast<double>(bins.size());
-        const std::string bar(bins[i] == 0 ? 0 : 1 + bins[i] * 49 / largest, '#');
-        text += fmt::format("  {:4.1f} .. {:4.1f} {:>9}  {}\n", lower, lower + 0.1, bins[i], bar);
-    }
-    return text;
+void write_vtu(const std::filesystem::path& file, const Outcome& outcome) {
+    hex::io::Fields fields;
+    for (const auto& [metric, measured] : outcome.findings.metrics)
+        fields.cell.push_back({std::string(hex::info(metric).name), measured.values});
+    hex::io::write_hex_mesh(file, outcome.mesh, fields);
 }
 
-void print_table(const Findings& findings) {
-    const hex::QualitySummary& summary = findings.summary;
-    std::string text;
-    text += fmt::format("vertices              {}\n", summary.vertices);
-    text += fmt::format("hexahedra             {}\n", summary.cells);
-    if (summary.cells > 0) {
-        text += fmt::format("min scaled Jacobian   {:.6g}  (hexahedron {})\n", summary.min,
-                            summary.worst.value());
-        text += fmt::format("mean scaled Jacobian  {:.6g}\n", summary.mean);
+/// No output may be written over another, or over the input.
+void require_different_files(const CommandLine& line) {
+    std::vector<std::pair<std::filesystem::path, std::string>> taken = {{line.input(), "the input"}};
+    for (const char* name : {"json", "junit", "sarif", "markdown", "vtu"}) {
+        const auto file = line.get_or<std::string>(name, "-");
+        if (file == "-" || file.starts_with("/dev/")) continue;
+        const auto place = [](const std::filesystem::path& path) {
+            std::error_code ignored;
+            return std::filesystem::weakly_canonical(std::filesystem::absolute(path, ignored), ignored);
+        };
+        for (const auto& [other, what] : taken) {
+            if (place(file) == place(other))
+                throw hex::Error(hex::ErrorKind::usage, std::string("--").append(name) + " and " + what +
+                                                            " are the same file " + file);
+        }
+        taken.emplace_back(file, std::string("--").append(name));
     }
-    text += fmt::format("inverted              {}", summary.inverted);
-    if (!findings.inverted.empty()) text += "  (" + hex::list_ids(findings.inverted) + ")";
-    text += "\nhistogram of the scaled Jacobian\n" + histogram_text(summary);
-    for (const auto& finding : findings.diagnostics) text += "note: " + finding.message + "\n";
-    std::cout << text;
-}
-
-Json report_of(const Findings& findings) {
-    const hex::QualitySummary& summary = findings.summary;
-    Json worst = nullptr;
-    if (summary.worst.valid()) worst = summary.worst.value();
-    return {{"vertices", summary.vertices},
-            {"hexes", summary.cells},
-            {"min_scaled_jacobian", summary.min},
-            {"mean_scaled_jacobian", summary.mean},
-            {"worst", worst},
-            {"inverted", summary.inverted},
-            {"inverted_ids", findings.inverted},
-            {"histogram", summary.histogram},
-            {"diagnostics", to_json(findings.diagnostics)}};
 }
 
 int run(CommandLine& line) {
-    const bool gate = line.given("min-scaled-jacobian");
-    const double least = line.get_or<double>("min-scaled-jacobian", 0.0);
-    if (gate) line.require_range("min-scaled-jacobian", least, -1.0, 1.0);
+    require_different_files(line);
+    line.require_range("worst", line.get<int>("worst"), 0, 1e6);
+    line.require_range("duplicate-tolerance", line.get<double>("duplicate-tolerance"), 0.0, 1.0);
+    line.require_range("baseline-tolerance", line.get<double>("baseline-tolerance"), 0.0, 1e30);
+    const auto worst = static_cast<std::size_t>(line.get<int>("worst"));
+    const Demands demands = demands_of(line);
     const hex::HexMesh mesh = load_hexahedra(line, line.input());
-    const Findings findings = examine(mesh, line.context());
-    const bool passed = gate ? findings.summary.min >= least || mesh.empty() : findings.summary.inverted == 0;
+    Outcome outcome{line.input().string(), mesh, examine(line, mesh, demands, worst), {}};
+    outcome.gates = evaluate_gates(demands, outcome.findings, worst);
+    if (demands.baseline)
+        for (Gate& gate : compare_with_baseline(*demands.baseline, line.get<double>("baseline-tolerance"),
+                                                outcome.findings, worst))
+            outcome.gates.push_back(std::move(gate));
 
-    if (line.get_or<std::string>("json", "") != "-") print_table(findings);
-    Json report = report_of(findings);
-    report["passed"] = passed;
-    line.write_report(report);
-    if (passed) return 0;
-    if (!gate)
-        throw hex::Error(hex::ErrorKind::quality,
-                         fmt::format("{} hexahedra are inverted: {}", findings.summary.inverted,
-                                     hex::list_ids(findings.inverted)),
-                         line.input().string(),
-                         "improve the mesh, or set --min-scaled-jacobian below the minimum");
-    throw hex::Error(hex::ErrorKind::quality,
-                     fmt::format("the smallest scaled Jacobian is {:.6g} (hexahedron {}), asked for is {:g}",
-                                 findings.summary.min, findings.summary.worst.value(), least),
-                     line.input().string());
+    if (line.get_or<std::string>("json", "") != "-") std::cout << table_text(outcome);
+    line.write_report(report_json(outcome));
+    const auto write = [&](const char* name, std::string (*text)(const Outcome&)) {
+        if (line.given(name)) hex::io::write_file(line.get<std::string>(name), text(outcome));
+    };
+    write("junit", junit_text);
+    write("sarif", sarif_text);
+    write("markdown", markdown_text);
+    if (line.given("vtu")) write_vtu(line.get<std::string>("vtu"), outcome);
+    if (outcome.passed()) return 0;
+
+    const auto failed = std::find_if(outcome.gates.begin(), outcome.gates.end(),
+                                     [](const Gate& gate) { return !gate.passed; });
+    std::string what = failed->name + ": asked for is " + failed->demand + ", found " + failed->found;
+    if (!failed->cells.empty()) {
+        std::vector<std::int64_t> list;
+        for (const hex::CellId c : failed->cells) list.push_back(c.value());
+        what += ", worst hexahedra " + hex::list_ids(list, 5);
+    }
+    if (const std::size_t more = outcome.failed_gates() - 1; more > 0)
+        what += fmt::format(" (and {} more demand{})", more, more == 1 ? "" : "s");
+    throw hex::Error(hex::ErrorKind::quality, what, outcome.input);
 }
 
 const RegisterCommand registered(
     {.name = "check",
      .order = 60,
      .summary = "measure a hexahedral mesh and fail when it is not good enough",
-     .description = "Exit code 0: good; 1: not as good as asked for.",
-     .sample_runs = {"hexspline check part.vtk",
-                     "hexspline check -i part.vtk --min-scaled-jacobian 0.3 --json -"},
+     .description = "Without limits for the scaled Jacobian, an inverted element fails.\n"
+                    "Exit code 0: good; 1: not as good as asked for.",
+     .sample_runs =
+         {"hexspline check part.vtk",
+          "hexspline check part.vtk --metric scaled_jacobian:0.2 --metric aspect_ratio::10 --bad-share 0.01",
+          "hexspline check part.vtk --profile ls-dyna --surface part.stl --max-surface-distance 0.5 "
+          "--json - --junit check.xml"},
      .describe = describe,
      .run = run});
 

@@ -1,0 +1,247 @@
+#!/usr/bin/env python3
+"""The subcommand check: limits, profiles, configuration, baseline, and the reports for build servers.
+
+    check_test.py HEXSPLINE DATA
+"""
+import json
+import re
+import unittest
+import xml.etree.ElementTree as xml
+from pathlib import Path
+
+from program import DATA, ROD, CommandTest
+
+SCHEMA = json.loads((DATA.parent / 'docs/check.schema.json').read_text())
+CUBE = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]
+
+
+def write_vtk(path, points, cells):
+    rows = ['# vtk DataFile Version 3.0', 'test', 'ASCII', 'DATASET UNSTRUCTURED_GRID', f'POINTS {len(points)} double']
+    rows += [' '.join(map(str, p)) for p in points]
+    rows += [f'CELLS {len(cells)} {9 * len(cells)}'] + [' '.join(map(str, [8, *c])) for c in cells]
+    rows += [f'CELL_TYPES {len(cells)}'] + ['12'] * len(cells)
+    path.write_text('\n'.join(rows) + '\n')
+
+
+def grid(nx, ny, nz, move=lambda p: p):
+    at = lambda i, j, k: i + (nx + 1) * (j + (ny + 1) * k)
+    points = [move((i, j, k)) for k in range(nz + 1) for j in range(ny + 1) for i in range(nx + 1)]
+    cells = [[at(i, j, k), at(i + 1, j, k), at(i + 1, j + 1, k), at(i, j + 1, k), at(i, j, k + 1), at(i + 1, j, k + 1),
+              at(i + 1, j + 1, k + 1), at(i, j + 1, k + 1)] for k in range(nz) for j in range(ny) for i in range(nx)]
+    return points, cells
+
+
+def conforms(value, schema, where='report'):
+    """The part of JSON schema that ours uses. Returns what is wrong, or None."""
+    if '$ref' in schema:
+        schema = SCHEMA['$defs'][schema['$ref'].rsplit('/', 1)[1]]
+    kinds = {'object': dict, 'array': list, 'string': str, 'integer': int, 'number': (int, float), 'boolean': bool, 'null': type(None)}
+    wanted = schema.get('type')
+    if wanted:
+        names = wanted if isinstance(wanted, list) else [wanted]
+        if not any(isinstance(value, kinds[n]) and (n == 'boolean' or not isinstance(value, bool)) for n in names):
+            return f'{where}: {value!r} is no {wanted}'
+    if isinstance(value, dict):
+        for name in schema.get('required', []):
+            if name not in value:
+                return f'{where}: no {name}'
+        known, rest = schema.get('properties', {}), schema.get('additionalProperties', True)
+        for name, entry in value.items():
+            if name in known:
+                wrong = conforms(entry, known[name], f'{where}.{name}')
+            elif rest is False:
+                wrong = f'{where}: {name} is not in the schema'
+            else:
+                wrong = conforms(entry, rest, f'{where}.{name}') if isinstance(rest, dict) else None
+            if wrong:
+                return wrong
+    if isinstance(value, list) and 'items' in schema:
+        for i, entry in enumerate(value):
+            if wrong := conforms(entry, schema['items'], f'{where}[{i}]'):
+                return wrong
+    return None
+
+
+class Check(CommandTest):
+    def setUp(self):
+        super().setUp()
+        # 10 cubes in a row; the sixth is sheared: scaled Jacobian 0.89 there and in the fifth.
+        points, cells = grid(10, 1, 1)
+        points = [(x + 0.5, y, z) if (x, z) == (6, 1) else (x, y, z) for x, y, z in points]
+        write_vtk(self.folder / 'row.vtk', points, cells)
+
+    def check(self, *arguments, code=0):
+        done = self.run_program('check', *arguments, '--json', 'report.json', code=code)
+        report = json.loads((self.folder / 'report.json').read_text())
+        self.assertIsNone(conforms(report, SCHEMA))
+        self.assertEqual(report['passed'], code == 0)
+        return report, done
+
+    def test_limits_of_a_metric(self):
+        report, _ = self.check('row.vtk', '--metric', 'scaled_jacobian:0.3', '--metric', 'ScaledJacobian')
+        self.assertAlmostEqual(report['metrics']['scaled_jacobian']['min'], report['min_scaled_jacobian'])
+        report, done = self.check('row.vtk', '--metric', 'scaled_jacobian:0.99', code=1)
+        gate, = report['gates']
+        self.assertEqual((gate['name'], gate['bad'], sorted(gate['elements'])), ('scaled_jacobian', 2, [5, 6]))
+        self.assertRegex(done.stderr, r'row.vtk.*scaled_jacobian.*0\.99')
+        self.check('row.vtk', '--metric', 'aspect_ratio::1.1', code=1)
+        self.check('row.vtk', '--metric', 'volume:0.1:2')
+        self.check('row.vtk', '--metric', 'volume:0.1:0.9', code=1)
+
+    def test_share_of_bad_elements(self):
+        self.check('row.vtk', '--metric', 'scaled_jacobian:0.99', '--bad-share', '0.2')
+        self.check('row.vtk', '--metric', 'scaled_jacobian:0.99', '--bad-share', '0.19', code=1)
+
+    def test_percentiles(self):
+        self.check('row.vtk', '--percentile', 'scaled_jacobian:50:0.99')
+        self.check('row.vtk', '--percentile', 'scaled_jacobian:20:0.99', code=1)
+        self.check('row.vtk', '--percentile', 'aspect_ratio:80::1.01')
+
+    def test_profiles(self):
+        for name in ('ls-dyna', 'abaqus', 'iga'):
+            report, _ = self.check('row.vtk', '--profile', name)
+            self.assertGreater(len(report['gates']), 3)
+        # A limit from an option replaces that of the profile.
+        self.check('row.vtk', '--profile', 'iga', '--metric', 'scaled_jacobian:0.99', code=1)
+        self.run_program('check', 'row.vtk', '--profile', 'none', code=2)
+
+    def test_configuration_file(self):
+        (self.folder / 'ok.json').write_text(json.dumps({
+            'profile': 'iga', 'bad_share': 0.3, 'forbid': ['several-components'],
+            'metrics': {'scaled_jacobian': {'min': 0.99}, 'skew': {'max': 0.9, 'bad_share': 0}}}))
+        report, _ = self.check('row.vtk', '--config', 'ok.json')
+        self.assertIn('several-components', [gate['name'] for gate in report['gates']])
+        for text in ('{', '[]', '{"metrics": {"no": {}}}', '{"metrics": {"skew": {"min": "a"}}}', '{"metrics": {"skew": {"least": 1}}}',
+                     '{"bad_share": 2}', '{"other": 1}', '{"profile": "no"}', '{"forbid": ["no"]}', '{"forbid": "no"}', '{"surface": 3}',
+                     '{"metrics": {"skew": {"min": 2, "max": 1}}}'):
+            (self.folder / 'bad.json').write_text(text)
+            message = self.run_program('check', 'row.vtk', '--config', 'bad.json', code=3).stderr
+            self.assertIn('bad.json', message, text)
+        self.run_program('check', 'row.vtk', '--config', 'missing.json', code=3)
+        self.run_program('check', 'row.vtk', '--config', '.', code=3)
+
+    def test_wrong_usage(self):
+        for wrong in (['--metric', 'none'], ['--metric', 'skew:a'], ['--metric', 'skew:1:2:3'], ['--metric', 'skew:2:1'],
+                      ['--metric', 'all:1'], ['--percentile', 'skew:101:1'], ['--percentile', 'skew:1'], ['--bad-share', '2'],
+                      ['--forbid', 'none'], ['--max-surface-distance', '1'], ['--profile', 'iga', '--config', 'x.json'],
+                      ['--worst', '-1'], ['--vtu', 'row.vtk'], ['--junit', 'a.xml', '--sarif', './a.xml']):
+            self.run_program('check', 'row.vtk', *wrong, code=2)
+
+    def test_a_baseline_fails_what_is_worse(self):
+        write_vtk(self.folder / 'good.vtk', *grid(10, 1, 1))
+        self.check('row.vtk')
+        (self.folder / 'report.json').rename(self.folder / 'old.json')
+        self.check('row.vtk', '--baseline', 'old.json')
+        self.check('good.vtk', '--baseline', 'old.json')
+        (self.folder / 'report.json').rename(self.folder / 'good.json')
+        report, _ = self.check('row.vtk', '--baseline', 'good.json', code=1)
+        failed = [gate['name'] for gate in report['gates'] if not gate['passed']]
+        self.assertIn('baseline-scaled_jacobian-min', failed)
+        self.assertIn('baseline-aspect_ratio-max', failed)
+        self.check('row.vtk', '--baseline', 'good.json', '--baseline-tolerance', '3')
+        (self.folder / 'bad.json').write_text('{"min_scaled_jacobian": "x"}')
+        for bad in ('bad.json', 'row.vtk', 'missing.json'):
+            self.run_program('check', 'row.vtk', '--baseline', bad, code=3)
+
+    def test_inverted_elements_come_with_ids_and_centres(self):
+        points, cells = grid(3, 1, 1)
+        points = [(1.5, 0.5, 0.5) if p == (3, 1, 1) else p for p in points]
+        write_vtk(self.folder / 'bad.vtk', points, cells)
+        report, done = self.check('bad.vtk', code=1)
+        self.assertEqual(report['inverted_ids'], [2])
+        element, = report['inverted_elements']
+        self.assertEqual(element['id'], 2)
+        corners = [points[v] for v in cells[2]]
+        for axis in range(3):
+            self.assertAlmostEqual(element['centre'][axis], sum(p[axis] for p in corners) / 8)
+        self.assertIn('hexahedron 2 at (', done.stdout)
+
+    def test_duplicate_and_unused_nodes_and_cracks(self):
+        # Two cubes side by side that do not share their nodes, and a node for nothing.
+        points = CUBE + [(x + 1, y, z) for x, y, z in CUBE] + [(5, 5, 5)]
+        write_vtk(self.folder / 'crack.vtk', points, [range(8), range(8, 16)])
+        report, _ = self.check('crack.vtk')
+        self.assertEqual(report['nodes']['duplicate_ids'], [[8, 1], [11, 2], [12, 5], [15, 6]])
+        self.assertEqual(report['nodes']['unused_ids'], [16])
+        self.assertEqual(report['boundary']['crack_elements'], [[0, 1]])
+        self.assertFalse(report['boundary']['watertight'])
+        for kind in ('duplicate-nodes', 'unused-nodes', 'open-boundary', 'several-components'):
+            report, done = self.check('crack.vtk', '--forbid', kind, code=1)
+            self.assertIn(kind, done.stderr)
+        self.check('crack.vtk', '--forbid', 'pinched-nodes')
+        # Nearly the same place.
+        points[8] = (1 + 1e-6, 0, 0)
+        write_vtk(self.folder / 'crack.vtk', points, [range(8), range(8, 16)])
+        self.assertEqual(self.check('crack.vtk')[0]['nodes']['duplicate'], 3)
+        self.assertEqual(self.check('crack.vtk', '--duplicate-tolerance', '1e-5')[0]['nodes']['duplicate'], 4)
+
+    def test_surface_distance(self):
+        # The unit cube against the box [0, 1.1] x [0, 1] x [0, 1].
+        write_vtk(self.folder / 'cube.vtk', CUBE, [range(8)])
+        corners = [(1.1 * x, y, z) for x, y, z in CUBE]
+        quads = [(0, 3, 2, 1), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (0, 4, 7, 3), (4, 5, 6, 7)]
+        (self.folder / 'box.off').write_text('OFF\n8 6 0\n' + ''.join(f'{x} {y} {z}\n' for x, y, z in corners) +
+                                             ''.join('4 ' + ' '.join(map(str, q)) + '\n' for q in quads))
+        report, _ = self.check('cube.vtk', '--surface', 'box.off', '--max-surface-distance', '6')
+        distance, diagonal = report['surface_distance'], (1.21 + 1 + 1) ** 0.5
+        self.assertAlmostEqual(distance['diagonal'], diagonal)
+        # Only the centre of the face x = 1 is inside of the box.
+        self.assertAlmostEqual(distance['to_surface_max_percent'], 100 * 0.1 / diagonal)
+        self.assertAlmostEqual(distance['from_surface_max_percent'], 100 * 0.1 / diagonal)
+        self.assertAlmostEqual(distance['vertex_max_percent'], 0)
+        self.check('cube.vtk', '--surface', 'box.off', '--max-surface-distance', '5', code=1)
+
+    def test_reports_for_build_servers(self):
+        _, done = self.check('row.vtk', '--metric', 'scaled_jacobian:0.99', '--metric', 'volume:0:2', '--junit', 'out.xml', '--sarif',
+                             'out.sarif', '--markdown', 'out.md', '--vtu', 'out.vtu', '--worst', '1', code=1)
+        suite = xml.parse(self.folder / 'out.xml').getroot()
+        self.assertEqual((suite.get('tests'), suite.get('failures')), ('2', '1'))
+        failed, = suite.findall('.//failure/..')
+        self.assertEqual((failed.get('name'), failed.get('classname')), ('scaled_jacobian', 'row.vtk'))
+        sarif = json.loads((self.folder / 'out.sarif').read_text())
+        self.assertEqual(sarif['version'], '2.1.0')
+        run, = sarif['runs']
+        self.assertEqual(len(run['tool']['driver']['rules']), 2)
+        result, = run['results']
+        self.assertEqual(result['locations'][0]['physicalLocation']['artifactLocation']['uri'], 'row.vtk')
+        self.assertRegex(result['locations'][0]['logicalLocations'][0]['name'], r'hexahedron [56]$')
+        summary = (self.folder / 'out.md').read_text()
+        self.assertIn('**FAILED**', summary)
+        rows = [line for line in summary.splitlines() if line.startswith('|')]
+        for row in rows:
+            self.assertIn(len(re.findall(r'(?<!\\)\|', row)), (5, 6), row)
+        self.assertIn('FAILED  scaled_jacobian', done.stdout)
+        self.assertIn('Name="scaled_jacobian"', (self.folder / 'out.vtu').read_bytes()[:4000].decode('latin1'))
+
+    def test_all_metrics_and_the_worst_elements(self):
+        report, _ = self.check('row.vtk', '--metric', 'all', '--worst', '3')
+        self.assertGreaterEqual(len(report['metrics']), 20)
+        for name, metric in report['metrics'].items():
+            self.assertEqual(len(metric['worst']), 3, name)
+            self.assertLessEqual(metric['min'], metric['median'])
+            self.assertLessEqual(metric['median'], metric['max'])
+        values = [element['value'] for element in report['metrics']['scaled_jacobian']['worst']]
+        self.assertEqual(values, sorted(values))
+        self.assertEqual(values[0], report['metrics']['scaled_jacobian']['min'])
+
+    def test_the_same_bytes_for_any_number_of_threads(self):
+        self.run_program('map', ROD / 'rod_patches.k', '-p', ROD / 'rod_blocks.k', '-s', '1', '-o', 'rod.vtk')
+        texts = []
+        for threads in (1, 2):
+            self.run_program('check', 'rod.vtk', '--metric', 'all', '--surface', ROD / 'rod_tri.k', '--min-scaled-jacobian', -1,
+                             '--threads', threads, '--json', 'out.json')
+            texts.append((self.folder / 'out.json').read_bytes())
+        self.assertEqual(texts[0], texts[1])
+
+    def test_the_workflow_example_is_about_options_that_exist(self):
+        text = (DATA.parent / 'docs/ci.md').read_text()
+        options = self.run_program('check', '--help').stdout
+        used = set(re.findall(r'hexspline check[^\n`]*', text))
+        self.assertGreater(len(used), 2)
+        for command in used:
+            for option in re.findall(r'--[a-z-]+', command):
+                self.assertIn(option, options, command)
+
+
+if __name__ == '__main__':
+    unittest.main()
