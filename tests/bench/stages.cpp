@@ -147,7 +147,9 @@ void add_pipeline(std::vector<Stage>& all, const hex::Context& context, const st
                        return Work{mesh.n_faces(), seconds_of([&] { hex::polycube(mesh, {}, context); })};
                    }});
     for (const int level : {2, 4}) {
-        all.push_back({"map", part + " -s " + std::to_string(level), [=] {
+        // The rod has 106,496 hexahedra at level 4, the blob 151,552.
+        all.push_back({"map", part + " -s " + std::to_string(level),
+                       [=] {
                            const auto surface = load_surface(part, "_patches.k");
                            const auto blocks = hex::io::read_hex_mesh(part_file(part, "_blocks.k")).mesh;
                            hex::MapOptions options;
@@ -157,7 +159,8 @@ void add_pipeline(std::vector<Stage>& all, const hex::Context& context, const st
                                work.elements = hex::map(surface, blocks, options, context).mesh.cell_count();
                            });
                            return work;
-                       }});
+                       },
+                       2.0});
     }
     for (const std::string method : {"laplace", "pillow", "smooth", "optimize"}) {
         all.push_back(

@@ -37,6 +37,44 @@ class Commands(CommandTest):
         for kind in ('vtk', 'json'):
             self.assertEqual((self.folder / f'1.{kind}').read_bytes(), (self.folder / f'2.{kind}').read_bytes())
 
+    def map_rod(self, *options, code=0):
+        result = self.run_program('map', ROD / 'rod_patches.k', '-p', ROD / 'rod_blocks.k', '-o', 'out.vtk', '--json',
+                                  'report.json', *options, code=code)
+        return json.loads((self.folder / 'report.json').read_text()) if code == 0 else result
+
+    def test_size_of_the_elements(self):
+        for target in (500, 5000):
+            report = self.map_rod('--target-hexes', target)
+            self.assertAlmostEqual(report['hexes'] / target, 1, delta=0.1)
+            again = self.map_rod('--edge-length', report['edge_length'])
+            self.assertAlmostEqual(again['hexes'] / target, 1, delta=0.35)
+            self.assertEqual(again['edge_length'], report['edge_length'])
+            self.assertIsNone(again['level'])
+        self.assertEqual(self.map_rod('--edge-length', 1e6)['hexes'], 26)
+        self.assertEqual(self.map_rod('--target-hexes=1e3')['edge_length'] > 0, True)
+
+    def test_interior(self):
+        quality = {}
+        for interior in ('linear', 'transfinite', 'harmonic'):
+            report = self.map_rod('--interior', interior)
+            self.assertEqual(report['interior'], interior)
+            quality[interior] = report['min_scaled_jacobian']
+        self.assertGreaterEqual(quality['harmonic'], min(0.3, quality['transfinite']))
+        self.assertEqual(self.map_rod()['interior'], 'harmonic')
+
+    def test_sizes_that_make_no_sense(self):
+        for options in (('--edge-length', 0), ('--edge-length=-1',), ('--edge-length', 'nan'), ('--edge-length', 'inf'),
+                        ('--target-hexes', 0), ('--target-hexes', 1e30), ('-s', 2, '--edge-length', 1),
+                        ('--target-hexes', 10, '--edge-length', 1), ('--interior', 'none')):
+            self.map_rod(*options, code=2)
+
+    def test_run_takes_the_size_too(self):
+        for options in (('--target-hexes', 800), ('--interior', 'linear', '-s', 1)):
+            self.run_program('run', ROD / 'rod_tri.k', '--segmentation', ROD / 'rod_patches.k', '--blocks',
+                             ROD / 'rod_blocks.k', '--from', 'polycube', '--to', 'map', '-o', 'out', *options)
+            hexes = json.loads((self.folder / 'out' / 'report.json').read_text())['hexes']
+            self.assertAlmostEqual(hexes / (208 if '-s' in options else 800), 1, delta=0.1)
+
     def test_quads_in_place_of_blocks(self):
         self.run_program('polycube', ROD / 'rod_patches.k', '-o', 'quads.k')
         message = self.run_program('map', ROD / 'rod_patches.k', '-p', 'quads.k', '-o', 'out.vtk', code=3).stderr
@@ -62,7 +100,7 @@ class Commands(CommandTest):
             self.run_program('map', ROD / 'rod_patches.k', *blocks, f'--level={level}', '-o', 'out.vtk', code=2)
         self.run_program('map', ROD / 'rod_patches.k', '-o', 'out.vtk', code=2)
         unknown = self.run_program('map', ROD / 'rod_patches.k', *blocks, '--method', 'none', '-o', 'out.vtk', code=2)
-        self.assertIn('transfinite', unknown.stderr)
+        self.assertIn('patchwise', unknown.stderr)
         self.run_program('map', ROD / 'rod_patches.k', '-p', 'missing.k', '-o', 'out.vtk', code=3)
 
 

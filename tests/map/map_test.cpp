@@ -2,6 +2,7 @@
 
 #include <hex/base/error.h>
 #include <hex/map/map.h>
+#include <hex/quality/scaled_jacobian.h>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
@@ -150,34 +151,85 @@ TEST_P(MapOfBlocks, PartsAreBlocks) {
         EXPECT_EQ(result.mesh.part(cell), static_cast<int>(cell.index() / 8) + 1);
 }
 
+/// All ways to say how fine the mesh is and how blocks are filled, for a model of about four units.
+std::vector<MapOptions> variants(double scale = 1.0) {
+    std::vector<MapOptions> all;
+    for (const Interior interior : {Interior::linear, Interior::transfinite, Interior::harmonic})
+        all.push_back({.level = 2, .interior = interior});
+    for (const double length : {0.8, 0.3}) all.push_back({.edge_length = length * scale});
+    all.push_back({.target_hexes = 700});
+    return all;
+}
+
 TEST_P(MapOfBlocks, IsTheSameForAnyNumberOfThreads) {
     const Case c = bent(blocks());
     Context one, two;
     one.threads = 1;
     two.threads = 2;
-    const MapResult a = map(c.surface, c.blocks, {.level = 3}, one);
-    const MapResult b = map(c.surface, c.blocks, {.level = 3}, two);
-    ASSERT_EQ(a.mesh.vertex_count(), b.mesh.vertex_count());
-    for (const VertexId v : a.mesh.vertices()) EXPECT_EQ(a.mesh.position(v), b.mesh.position(v));
-    EXPECT_TRUE(
-        std::equal(a.mesh.cell_array().begin(), a.mesh.cell_array().end(), b.mesh.cell_array().begin()));
+    for (MapOptions options : variants()) {
+        options.level = 3;
+        const MapResult a = map(c.surface, c.blocks, options, one);
+        const MapResult b = map(c.surface, c.blocks, options, two);
+        ASSERT_EQ(a.mesh.vertex_count(), b.mesh.vertex_count());
+        for (const VertexId v : a.mesh.vertices()) ASSERT_EQ(a.mesh.position(v), b.mesh.position(v));
+        EXPECT_TRUE(
+            std::equal(a.mesh.cell_array().begin(), a.mesh.cell_array().end(), b.mesh.cell_array().begin()));
+    }
 }
 
 TEST_P(MapOfBlocks, MovesWithItsInput) {
     const Case c = bent(blocks());
     const Eigen::Matrix3d rotation =
         Eigen::AngleAxisd(1.1, Vec3(0.3, -0.7, 0.6).normalized()).toRotationMatrix();
-    const auto similar = [&](const Vec3& p) -> Vec3 { return 250.0 * (rotation * p) + Vec3(100, -2000, 30); };
-    PolygonSoup soup = to_soup(c.surface);
-    for (Vec3& p : soup.points) p = similar(p);
-    const MapResult before = map(c.surface, c.blocks, {.level = 2});
-    const MapResult after = map(make_triangle_mesh(soup), moved(c.blocks, similar), {.level = 2});
-    const double scale = 250.0 * bounding_box(c.surface).diagonal();
-    for (const VertexId v : before.mesh.vertices())
-        EXPECT_LT((after.mesh.position(v) - similar(before.mesh.position(v))).norm(), 1e-9 * scale);
+    for (const double factor : {250.0, 1e-3}) {
+        const auto similar = [&](const Vec3& p) -> Vec3 {
+            return factor * (rotation * p + Vec3(0.4, -8, 0.12));
+        };
+        PolygonSoup soup = to_soup(c.surface);
+        for (Vec3& p : soup.points) p = similar(p);
+        const TriangleMesh surface = make_triangle_mesh(soup);
+        const HexMesh drawn = moved(c.blocks, similar);
+        const double scale = factor * bounding_box(c.surface).diagonal();
+        const std::vector<MapOptions> options = variants();
+        const std::vector<MapOptions> scaled = variants(factor);
+        for (std::size_t i = 0; i < options.size(); ++i) {
+            const MapResult before = map(c.surface, c.blocks, options[i]);
+            const MapResult after = map(surface, drawn, scaled[i]);
+            ASSERT_EQ(before.report.divisions, after.report.divisions);
+            for (const VertexId v : before.mesh.vertices())
+                ASSERT_LT((after.mesh.position(v) - similar(before.mesh.position(v))).norm(), 1e-9 * scale);
+        }
+    }
+}
+
+/// Bent blocks, where transfinite interpolation is not the solution.
+TEST_P(MapOfBlocks, HarmonicIsNowhereWorseThanTransfiniteWhereItMatters) {
+    const Case c = bent(blocks());
+    const HexMesh start = map(c.surface, c.blocks, {.level = 3, .interior = Interior::transfinite}).mesh;
+    const MapResult harmonic = map(c.surface, c.blocks, {.level = 3, .interior = Interior::harmonic});
+    std::size_t changed = 0;
+    for (const CellId cell : start.cells()) {
+        const double now = scaled_jacobian(harmonic.mesh, cell);
+        EXPECT_GE(now, std::min(0.3, scaled_jacobian(start, cell)));
+        changed += now == scaled_jacobian(start, cell) ? 0 : 1;
+    }
+    EXPECT_GT(changed, start.cell_count() / 4);
 }
 
 INSTANTIATE_TEST_SUITE_P(Structures, MapOfBlocks, ::testing::Range(0, 4));
+
+TEST(Map, EdgeLengthCutsEverySheetByItsOwnLength) {
+    const TriangleMesh surface = make_triangle_mesh(test::box_surface(3, 2, 1, 5));
+    const HexMesh blocks =
+        moved(test::grid(1, 1, 1), [](const Vec3& p) { return Vec3(3 * p.x(), 2 * p.y(), p.z()); });
+    const MapResult result = map(surface, blocks, {.edge_length = 0.5});
+    EXPECT_EQ(result.mesh.cell_count(), 6U * 4U * 2U);
+    EXPECT_EQ(result.report.divisions, (std::vector<int>{6, 4, 2}));
+    EXPECT_EQ(result.report.edge_length, 0.5);
+    EXPECT_NEAR(summarize(result.mesh).min, 1.0, 1e-12);
+    EXPECT_EQ(map(surface, blocks, {.target_hexes = 6000}).mesh.cell_count(), 6000U);
+    EXPECT_EQ(map(surface, blocks, {.target_hexes = 1}).mesh.cell_count(), 1U);
+}
 
 TEST(Map, BlockVerticesAreSnappedToTheSurfaceAndFarOnesWarnedOf) {
     const Case c = bent(test::grid(2, 1, 1));
@@ -196,13 +248,43 @@ TEST(Map, BlockVerticesAreSnappedToTheSurfaceAndFarOnesWarnedOf) {
     EXPECT_EQ(result.report.diagnostics[0].ids, std::vector<std::int64_t>{0});
 }
 
-TEST(Map, InnerBlockVerticesStayWhereTheyWereDrawn) {
+/// Interpolation keeps them; the Laplace equation puts them where the blocks are even.
+TEST(Map, InnerBlockVerticesStayWhereTheyWereDrawnUnlessHarmonic) {
     const HexMesh blocks = test::grid(2, 2, 2);
     const VertexId centre(13);
     HexMesh drawn = blocks;
     drawn.set_position(centre, Vec3(1.1, 0.9, 1.2));
-    const MapResult result = map(make_triangle_mesh(surface_of_blocks(blocks, 2)), drawn, {.level = 1});
-    EXPECT_EQ(result.mesh.position(centre), Vec3(1.1, 0.9, 1.2));
+    const TriangleMesh surface = make_triangle_mesh(surface_of_blocks(blocks, 2));
+    for (const Interior interior : {Interior::linear, Interior::transfinite}) {
+        const MapResult result = map(surface, drawn, {.level = 1, .interior = interior});
+        EXPECT_EQ(result.mesh.position(centre), Vec3(1.1, 0.9, 1.2));
+    }
+    const MapResult harmonic = map(surface, drawn, {.level = 1});
+    EXPECT_LT((harmonic.mesh.position(centre) - Vec3(1, 1, 1)).norm(), 0.06);
+    EXPECT_EQ(harmonic.report.held_back_nodes, 0U);
+}
+
+/// Of a harmonic function of space the nodes of a cubic grid take exact values: x^2 - y^2 is discrete
+/// harmonic too.
+TEST(Map, HarmonicInteriorSolvesTheLaplaceEquation) {
+    const auto lift = [](const Vec3& p) {
+        return Vec3(p.x(), p.y(), p.z() + 0.1 * (p.x() * p.x() - p.y() * p.y()));
+    };
+    const HexMesh blocks = moved(test::grid(2, 2, 2), lift);
+    // Fine enough that the samples are vertices of the surface.
+    const TriangleMesh surface = make_triangle_mesh(surface_of_blocks(test::grid(2, 2, 2), 8, lift));
+    const MapResult result = map(surface, blocks, {.edge_length = 0.5});
+    EXPECT_EQ(result.mesh.cell_count(), 64U);
+    double largest = 0.0;
+    const BoundaryQuads quads = boundary_quads(result.mesh);
+    for (const VertexId v : result.mesh.vertices()) {
+        if (quads.contains(v)) continue;
+        const Vec3 p = result.mesh.position(v);
+        Vec3 flat(std::round(2 * p.x()) / 2, std::round(2 * p.y()) / 2, 0);
+        flat.z() = std::round(2 * (p.z() - 0.1 * (p.x() * p.x() - p.y() * p.y()))) / 2;
+        largest = std::max(largest, (p - lift(flat)).norm());
+    }
+    EXPECT_LT(largest, 0.02);
 }
 
 TEST(Map, UnusedBlockVerticesAreLeftOut) {
@@ -336,7 +418,11 @@ TEST(MapErrors, OptionsOutOfRange) {
     const TriangleMesh surface = make_triangle_mesh(test::box_surface(1, 1, 1, 2));
     const HexMesh blocks = test::grid(1, 1, 1);
     for (const int level : {-1, 8}) message_of(surface, blocks, {.level = level}, ErrorKind::usage);
-    expect_contains(message_of(surface, blocks, {.method = "no-such"}, ErrorKind::usage), "transfinite");
+    expect_contains(message_of(surface, blocks, {.method = "no-such"}, ErrorKind::usage), "patchwise");
+    for (const double length : {-1.0, std::nan(""), std::numeric_limits<double>::infinity()})
+        message_of(surface, blocks, {.edge_length = length}, ErrorKind::usage);
+    message_of(surface, blocks, {.edge_length = 1.0, .target_hexes = 10}, ErrorKind::usage);
+    expect_contains(message_of(surface, blocks, {.edge_length = 1e-6}, ErrorKind::unsupported), "hexahedra");
     message_of(surface, blocks, {.snap_warning = -1.0}, ErrorKind::usage);
     message_of(surface, blocks, {.snap_warning = std::nan("")}, ErrorKind::usage);
 }

@@ -99,7 +99,7 @@ BlockNumbering::BlockNumbering(const HexMesh& blocks, const EdgeTable& edges, st
         throw Error(
             ErrorKind::unsupported,
             fmt::format("the mesh would have {} hexahedra, more than {}", first_cell_.back(), most / 6), {},
-            "choose a lower level");
+            "choose a lower level or longer edges");
 }
 
 std::array<int, 3> BlockNumbering::segments(CellId block) const {

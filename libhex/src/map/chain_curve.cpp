@@ -17,10 +17,10 @@ std::vector<Vec3> chain_points(const TriangleMesh& mesh, const Chain& chain) {
 ChainCurve::ChainCurve(std::vector<Vec3> points) : points_(std::move(points)), parameters_(points_.size()) {
     for (std::size_t i = 1; i < points_.size(); ++i)
         parameters_[i] = parameters_[i - 1] + (points_[i] - points_[i - 1]).norm();
-    const double length = parameters_.back();
+    length_ = parameters_.back();
     const auto last = static_cast<double>(points_.size() - 1);
     for (std::size_t i = 0; i < points_.size(); ++i)
-        parameters_[i] = length > 0.0 ? parameters_[i] / length : static_cast<double>(i) / last;
+        parameters_[i] = length_ > 0.0 ? parameters_[i] / length_ : static_cast<double>(i) / last;
 }
 
 ChainCurve::ChainCurve(const TriangleMesh& mesh, const Chain& chain)

@@ -1,8 +1,10 @@
 /// Sample runs:
 ///   hexspline map -i part_patches.k -p part_blocks.k -o part_hex.vtk
 ///   hexspline map -i rod_initial_read.k -p rod_polycube_structure_hex.k -s 2 -o rod_hex.vtk
+///   hexspline map -i part_patches.k -p part_blocks.k --target-hexes 20000 -o part_hex.vtk
 
 #include "hexspline/command.h"
+#include "hexspline/element_size.h"
 #include "hexspline/inputs.h"
 
 #include <hex/base/error.h>
@@ -23,10 +25,9 @@ void describe(CommandLine& line) {
     line.add_output("hexahedral mesh; part id = index of the block + 1");
     line.add("blocks,p", value<std::string>()->required(),
              "hexahedral block structure, one boundary quad a patch, its corners on the patch corners");
-    line.add("level,s", value<int>()->default_value(hex::MapOptions().level),
-             "octree level 0..7: every block becomes 2^N x 2^N x 2^N hexahedra; 0 keeps the blocks");
+    describe_element_size(line);
     line.add("method", value<std::string>("NAME")->default_value(hex::MapOptions().method),
-             "transfinite, or a plug-in's (hexspline plugins)");
+             "patchwise, or a plug-in's (hexspline plugins)");
 }
 
 /// Faces of a file that holds no hexahedra but a surface; none when it cannot be read as one.
@@ -53,7 +54,8 @@ hex::HexMesh load_blocks(const CommandLine& line, const std::filesystem::path& p
     }
 }
 
-Json report_of(const hex::MapResult& result, const hex::QualitySummary& quality, int level) {
+Json report_of(const hex::MapResult& result, const hex::QualitySummary& quality,
+               const hex::MapOptions& options) {
     Json patches = Json::array();
     for (const auto& record : result.report.patch_maps)
         patches.push_back({{"patch", record.patch},
@@ -62,7 +64,11 @@ Json report_of(const hex::MapResult& result, const hex::QualitySummary& quality,
                            {"flipped", record.flipped},
                            {"split_edges", record.split_edges}});
     return {{"method", result.report.method},
-            {"level", level},
+            {"level", result.report.edge_length > 0 ? Json(nullptr) : Json(options.level)},
+            {"edge_length", result.report.edge_length > 0 ? Json(result.report.edge_length) : Json(nullptr)},
+            {"divisions", result.report.divisions},
+            {"interior", hex::name_of(options.interior)},
+            {"held_back_nodes", result.report.held_back_nodes},
             {"patches", result.report.patches},
             {"blocks", result.report.blocks},
             {"vertices", quality.vertices},
@@ -76,10 +82,8 @@ Json report_of(const hex::MapResult& result, const hex::QualitySummary& quality,
 }
 
 int run(CommandLine& line) {
-    hex::MapOptions options;
-    options.level = line.get<int>("level");
+    hex::MapOptions options = element_size(line);
     options.method = line.get<std::string>("method");
-    line.require_range("level", options.level, 0, hex::largest_map_level);
     const std::filesystem::path blocks_file = line.get<std::string>("blocks");
     const hex::TriangleMesh surface = load_triangles(line, line.input());
     const hex::HexMesh blocks = load_blocks(line, blocks_file);
@@ -101,7 +105,7 @@ int run(CommandLine& line) {
         line.warn(
             fmt::format("{} of {} hexahedra are inverted (scaled Jacobian <= 0); improve the mesh before use",
                         quality.inverted, quality.cells));
-    line.write_report(report_of(result, quality, options.level));
+    line.write_report(report_of(result, quality, options));
     return 0;
 }
 
@@ -111,11 +115,12 @@ const RegisterCommand registered(
      .summary = "fill a block structure with hexahedra that follow a surface of four-sided patches",
      .description =
          "Each boundary quad of the blocks is paired with the patch that has its four corners. Patches are\n"
-         "mapped harmonically, blocks filled by transfinite interpolation. A patch without a quad, a quad\n"
+         "mapped harmonically, blocks filled as --interior says. A patch without a quad, a quad\n"
          "without a patch or a patch that is not four-sided is named, and the exit code is 3.",
      .sample_runs =
          {"hexspline map -i part_patches.k -p part_blocks.k -o part_hex.vtk",
-          "hexspline map -i rod_initial_read.k -p rod_polycube_structure_hex.k -s 2 -o rod_hex.vtk"},
+          "hexspline map -i rod_initial_read.k -p rod_polycube_structure_hex.k -s 2 -o rod_hex.vtk",
+          "hexspline map -i part_patches.k -p part_blocks.k --target-hexes 20000 -o part_hex.vtk"},
      .describe = describe,
      .run = run});
 

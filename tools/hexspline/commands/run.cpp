@@ -3,6 +3,7 @@
 ///   hexspline run rod.stl --from improve -o out
 
 #include "hexspline/command.h"
+#include "hexspline/element_size.h"
 #include "hexspline/inputs.h"
 
 #include <hex/base/error.h>
@@ -129,8 +130,7 @@ class Chain {
             throw hex::Error(hex::ErrorKind::usage, "there are no blocks to map", {},
                              "give them with --blocks");
         if (!blocks_) blocks_ = load_hexahedra(line_, folder_ / "2-blocks.k");
-        hex::MapOptions options;
-        options.level = line_.get<int>("level");
+        const hex::MapOptions options = element_size(line_);
         auto result = hex::map(patches(), *blocks_, options, line_.context());
         line_.log(result.report.diagnostics);
         mapped_ = std::move(result.mesh);
@@ -216,7 +216,7 @@ void describe(CommandLine& line) {
     line.add("from", value<std::string>("STAGE")->default_value("segment"),
              "first stage to run; what comes before is read from the output folder");
     line.add("to", value<std::string>("STAGE")->default_value("spline"), "last stage to run");
-    line.add("level,s", value<int>()->default_value(2), "every block becomes 2^N x 2^N x 2^N elements");
+    describe_element_size(line);
     line.add("weight,l", value<double>()->default_value(0.1, "0.1"),
              "segment: weight of the boundary-enhanced term; with it the method is hbecvt");
     line.add("improve", value<std::string>("LIST")->default_value("smooth,optimize"),

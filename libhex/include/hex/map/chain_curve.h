@@ -23,6 +23,8 @@ class ChainCurve {
     /// point at 0 and 1. Logarithmic in the number of points.
     Vec3 point(double t) const;
 
+    /// Length of the polyline.
+    double length() const { return length_; }
     const std::vector<Vec3>& points() const { return points_; }
     /// Parameters of the points: 0 first, 1 last, not decreasing.
     const std::vector<double>& parameters() const { return parameters_; }
@@ -30,6 +32,7 @@ class ChainCurve {
   private:
     std::vector<Vec3> points_;
     std::vector<double> parameters_;
+    double length_ = 0.0;
 };
 
 }  // namespace hex

@@ -13,12 +13,32 @@
 
 namespace hex {
 
+/// How the inside of the blocks is filled.
+enum class Interior {
+    linear,       ///< straight lines between opposite sides (linear_blend.h)
+    transfinite,  ///< Coons faces and Gordon-Hall blocks (transfinite.h)
+    harmonic,     ///< a discrete Laplace equation over all inner nodes, those of inner block vertices, edges
+                  ///< and faces too; where that makes an element worse than transfinite, and its scaled
+                  ///< Jacobian less than 0.3, its nodes move less
+};
+
+/// "linear", "transfinite" or "harmonic", and back; Error{usage} for another name.
+std::string name_of(Interior interior);
+Interior interior_named(const std::string& name);
+
 struct MapOptions {
-    /// Name of the method in the registry: `transfinite` (harmonic patches, Coons and Gordon-Hall inside) or
-    /// a plug-in's.
-    std::string method = "transfinite";
+    /// Name of the method in the registry: `patchwise` (harmonic patches, blocks filled as `interior` says)
+    /// or a plug-in's.
+    std::string method = "patchwise";
     /// Every block becomes 2^level x 2^level x 2^level hexahedra; 0 .. 7. Paper: octree level, default 2.
+    /// Without effect when an edge length or a number of hexahedra is asked for.
     int level = 2;
+    /// When positive: block edges are cut into pieces of about this length, equally many for all edges of a
+    /// sheet (divisions.h). In the units of the surface.
+    double edge_length = 0.0;
+    /// When positive: the edge length is chosen so that there are about as many hexahedra. Not both.
+    std::size_t target_hexes = 0;
+    Interior interior = Interior::harmonic;
     /// A block corner farther than this from its surface corner, in units of the bounding box diagonal, is
     /// warned about.
     double snap_warning = 1e-3;
@@ -43,6 +63,12 @@ struct MapReport {
     std::size_t blocks = 0;
     /// Distance between a block corner and its surface corner, in units of the diagonal.
     double largest_snap = 0.0;
+    /// Pieces into which the edges of each sheet of the blocks are cut (block_sheets.h).
+    std::vector<int> divisions;
+    /// The edge length that they were chosen for; 0 when they follow from the level.
+    double edge_length = 0.0;
+    /// Interior::harmonic: nodes that moved less, or not, because an element would have got worse.
+    std::size_t held_back_nodes = 0;
     std::vector<PatchMapRecord> patch_maps;
     /// Warnings `far-corner` (block vertices) and `flipped-patch` (patches).
     Diagnostics diagnostics;
@@ -62,14 +88,15 @@ class Mapper {
 
 Registry<Mapper>& mappers();
 
-/// Runs `options.method`. The result of the built-in method `transfinite` is conforming by construction, and
+/// Runs `options.method`. The result of the built-in method `patchwise` is conforming by construction, and
 /// its boundary vertices lie on the triangles of the surface; that its elements are not inverted is not
 /// promised (stage `improve` is for that). It is unchanged by rotations, translations and scalings but for
 /// rounding.
 ///
 /// Throws Error{bad_input} with patch, block and vertex ids when patches are not four-sided, two block
 /// corners meet one surface corner, or boundary quads and patches do not pair (block_match.h); Error{usage}
-/// for a level out of range or an unknown method; Error{unsupported} for more elements than 32-bit ids can
+/// for a level out of range, an edge length that is not positive, both a length and a number, or an unknown
+/// method; Error{unsupported} for more elements than 32-bit ids can
 /// name.
 MapResult map(const TriangleMesh& surface, const HexMesh& blocks, const MapOptions& options = {},
               const Context& context = {});

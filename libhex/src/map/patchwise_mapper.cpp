@@ -1,9 +1,15 @@
-/// The method `transfinite`: Yu, Wei, Li, Liu, He, Zhang: HexGen and Hex2Spline, section on parametric
-/// mapping, with transfinite interpolation where the paper relaxes and interpolates by coordinates.
+/// The method `patchwise`: Yu, Wei, Li, Liu, He, Zhang: HexGen and Hex2Spline, section on parametric mapping,
+/// with interpolations that do not depend on the axes where the paper relaxes and interpolates by
+/// coordinates.
+
+#include "map/harmonic_interior.h"
 
 #include <hex/base/parallel.h>
 #include <hex/map/block_match.h>
 #include <hex/map/block_numbering.h>
+#include <hex/map/block_sheets.h>
+#include <hex/map/divisions.h>
+#include <hex/map/linear_blend.h>
 #include <hex/map/map.h>
 #include <hex/map/patch_map.h>
 #include <hex/map/transfinite.h>
@@ -61,7 +67,7 @@ class NodePlacer {
   public:
     NodePlacer(const TriangleMesh& surface, const HexMesh& blocks, const BoundaryQuads& quads,
                const EdgeTable& edges, const BlockMatch& match, const BlockNumbering& numbering,
-               const std::vector<PatchMap>& maps)
+               const std::vector<PatchMap>& maps, Interior interior)
         : surface_(surface),
           blocks_(blocks),
           quads_(quads),
@@ -69,6 +75,7 @@ class NodePlacer {
           match_(match),
           numbering_(numbering),
           maps_(maps),
+          interior_(interior),
           positions_(numbering.node_count()) {}
 
     std::vector<Vec3> run(const Context& context) {
@@ -129,9 +136,18 @@ class NodePlacer {
         FaceGrid grid(m, n);
         for (int t = 0; t <= n; ++t)
             for (int s = 0; s <= m; ++s) grid(s, t) = positions_[node(s, t)];
-        fill_inside(grid);
+        fill(grid);
         for (int t = 1; t < n; ++t)
             for (int s = 1; s < m; ++s) positions_[node(s, t)] = grid(s, t);
+    }
+
+    /// The harmonic interior starts from the transfinite one.
+    template <class Grid>
+    void fill(Grid& grid) const {
+        if (interior_ == Interior::linear)
+            blend_linearly(grid);
+        else
+            fill_inside(grid);
     }
 
     /// (s, t) in the frame of a boundary quad, whose vertex 0 lies on some corner of the patch.
@@ -157,7 +173,7 @@ class NodePlacer {
         for (int k = 0; k <= n; ++k)
             for (int j = 0; j <= m; ++j)
                 for (int i = 0; i <= l; ++i) grid(i, j, k) = positions_[nodes[next++].index()];
-        fill_inside(grid);
+        fill(grid);
         next = 0;
         for (int k = 0; k <= n; ++k)
             for (int j = 0; j <= m; ++j)
@@ -173,10 +189,28 @@ class NodePlacer {
     const BlockMatch& match_;
     const BlockNumbering& numbering_;
     const std::vector<PatchMap>& maps_;
+    Interior interior_;
     std::vector<Vec3> positions_;
 };
 
-class TransfiniteMapper : public Mapper {
+/// Length of the curve that each block edge is mapped to.
+std::vector<double> lengths_of_edges(const TriangleMesh& surface, const HexMesh& blocks,
+                                     const EdgeTable& edges, const BlockMatch& match) {
+    const auto at = [&](VertexId v) -> Vec3 {
+        const int on_surface = match.surface_vertex[v.index()];
+        return on_surface < 0 ? blocks.position(v)
+                              : to_eigen(surface.point(TriangleMesh::VertexHandle(on_surface)));
+    };
+    std::vector<double> lengths(edges.size());
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+        const Chain& chain = match.chain_of_edge[e];
+        lengths[e] = chain.empty() ? (at(edges.vertices[e][1]) - at(edges.vertices[e][0])).norm()
+                                   : ChainCurve(surface, chain).length();
+    }
+    return lengths;
+}
+
+class PatchwiseMapper : public Mapper {
   public:
     MapResult map(const TriangleMesh& surface, const HexMesh& blocks, const MapOptions& options,
                   const Context& context) const override {
@@ -192,12 +226,20 @@ class TransfiniteMapper : public Mapper {
         const BoundaryQuads quads = boundary_quads(blocks);
         const EdgeTable edges = edge_table(blocks);
         BlockMatch match = match_blocks(surface, layout, blocks, quads, edges, options.snap_warning);
-        const BlockNumbering numbering(blocks, edges, std::vector<int>(edges.size(), 1 << options.level));
+        const std::vector<double> lengths = lengths_of_edges(surface, blocks, edges, match);
+        MapResult result;
+        const BlockNumbering numbering(blocks, edges,
+                                       divide(blocks, edges, lengths, options, context, result.report));
 
         const std::vector<PatchMap> maps = map_patches(surface, layout, context);
         context.progress("edges", 0.4);
         std::vector<Vec3> positions =
-            NodePlacer(surface, blocks, quads, edges, match, numbering, maps).run(context);
+            NodePlacer(surface, blocks, quads, edges, match, numbering, maps, options.interior).run(context);
+        std::vector<HexCell> cells = numbering.cells();
+        if (options.interior == Interior::harmonic)
+            result.report.held_back_nodes =
+                relax_harmonically(blocks, edges, numbering, lengths, cells, positions, context)
+                    .held_back_nodes;
 
         context.check_cancelled();
         context.progress("mesh", 0.9);
@@ -209,8 +251,7 @@ class TransfiniteMapper : public Mapper {
                     ? parts.begin() + static_cast<std::ptrdiff_t>(numbering.first_cell(CellId(b.index() + 1)))
                     : parts.end(),
                 static_cast<int>(b.index()) + 1);
-        MapResult result;
-        result.mesh = HexMesh(std::move(positions), numbering.cells(), std::move(parts));
+        result.mesh = HexMesh(std::move(positions), std::move(cells), std::move(parts));
         result.report.blocks = blocks.cell_count();
         result.report.largest_snap = match.largest_snap;
         result.report.diagnostics = std::move(match.diagnostics);
@@ -218,11 +259,31 @@ class TransfiniteMapper : public Mapper {
         context.progress("mesh", 1.0);
         return result;
     }
+
+    /// Pieces of each block edge.
+    static std::vector<int> divide(const HexMesh& blocks, const EdgeTable& edges,
+                                   const std::vector<double>& lengths, const MapOptions& options,
+                                   const Context& context, MapReport& report) {
+        const BlockSheets sheets = find_sheets(blocks, edges);
+        if (options.edge_length > 0.0 || options.target_hexes > 0) {
+            const SheetDivider divider(blocks, edges, sheets, lengths);
+            SheetDivisions divisions = options.target_hexes > 0
+                                           ? divider.for_count(options.target_hexes, context)
+                                           : divider.for_length(options.edge_length, context);
+            report.divisions = std::move(divisions.pieces);
+            report.edge_length = divisions.edge_length;
+        } else {
+            report.divisions.assign(sheets.count, 1 << options.level);
+        }
+        std::vector<int> pieces(edges.size());
+        for (std::size_t e = 0; e < edges.size(); ++e) pieces[e] = report.divisions[sheets.sheet_of_edge[e]];
+        return pieces;
+    }
 };
 
-const Register<Mapper, TransfiniteMapper> transfinite(
-    mappers(), "transfinite",
-    "harmonic maps of the patches, Coons faces and Gordon-Hall blocks, conforming by one global numbering");
+const Register<Mapper, PatchwiseMapper> patchwise(
+    mappers(), "patchwise",
+    "harmonic maps of the patches, blocks filled from their faces, conforming by one global numbering");
 
 }  // namespace
 }  // namespace hex
