@@ -61,10 +61,10 @@ class Commands(CommandTest):
     def test_sharp_vertices_come_from_the_file_beside_the_input_or_from_the_named_one(self):
         write_vtk(self.folder / 'cube.vtk', CUBE, [range(8)])
         (self.folder / 'sharp.txt').write_text('0\t0\n0\t1\n0\t2')
-        self.run_program('improve', 'cube.vtk', '-s', 2, '-n', 1, '-o', 'out.vtk', '--json', 'report.json')
+        self.run_program('improve', 'cube.vtk', '-m', 'smooth', '-s', 2, '-n', 1, '-o', 'out.vtk', '--json', 'report.json')
         self.assertEqual(self.report()['sharp_edges'], 2)
         (self.folder / 'two.txt').write_text('0\n1\n')
-        self.run_program('improve', 'cube.vtk', '-s', 2, '--sharp-file', 'two.txt', '-n', 1, '-o', 'out.vtk', '--json', 'report.json')
+        self.run_program('improve', 'cube.vtk', '-m', 'smooth', '-s', 2, '--sharp-file', 'two.txt', '-n', 1, '-o', 'out.vtk', '--json', 'report.json')
         self.assertEqual(self.report()['sharp_edges'], 1)
         (self.folder / 'bad.txt').write_text('0\n8\n')
         message = self.run_program('improve', 'cube.vtk', '-s', 2, '--sharp-file', 'bad.txt', '-o', 'no.vtk', code=3).stderr

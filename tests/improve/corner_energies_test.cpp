@@ -86,6 +86,31 @@ TEST(QualityBarrier, GradientIsThatOfFiniteDifferences) {
     }
 }
 
+TEST(QualityMean, GradientIsThatOfFiniteDifferences) {
+    for (unsigned seed = 1; seed <= 20; ++seed) {
+        const HexCorners corners = shaken_box(Vec3(1.0, 3.0, 0.5), 0.15, seed);
+        const hex::QualityMean mean{.floor = hex::scaled_jacobian(corners) - 0.1, .barrier_weight = 0.05};
+        HexCorners gradient;
+        gradient.fill(Vec3::Zero());
+        (void)mean.evaluate(corners, &gradient);
+        expect_gradient(corners, gradient, [&](const HexCorners& p) { return mean.evaluate(p, nullptr); });
+    }
+}
+
+TEST(QualityMean, IsAtLeastTheDefectOfTheScaledJacobianAndZeroForABox) {
+    for (unsigned seed = 1; seed <= 20; ++seed) {
+        const HexCorners corners = shaken_box(Vec3::Ones(), 0.3, seed);
+        const double defect = 1.0 - hex::scaled_jacobian(corners);
+        const double value =
+            hex::QualityMean{.floor = -1.0, .barrier_weight = 0.0}.evaluate(corners, nullptr);
+        EXPECT_GE(value, defect);
+        EXPECT_LE(value, std::pow(9.0, 1.0 / 6.0) * defect);
+    }
+    EXPECT_LT(hex::QualityMean({.floor = -1.0, .barrier_weight = 0.0})
+                  .evaluate(shaken_box(Vec3(1.0, 2.0, 0.5), 0.0, 1), nullptr),
+              2e-3);
+}
+
 TEST(QualityBarrier, IsFiniteExactlyAboveItsFloor) {
     for (unsigned seed = 1; seed <= 20; ++seed) {
         const HexCorners corners = shaken_box(Vec3::Ones(), 0.4, seed);

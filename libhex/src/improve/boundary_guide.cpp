@@ -279,6 +279,10 @@ std::array<Vec3, 2> BoundaryGuide::segment(VertexId v, std::uint32_t item) const
     return {parts_->surface.points[vertices[item]], parts_->surface.points[vertices[item + 1]]};
 }
 
+const GuideSurface& BoundaryGuide::surface() const {
+    return parts_->surface;
+}
+
 double BoundaryGuide::diagonal() const {
     return parts_->surface.diagonal;
 }

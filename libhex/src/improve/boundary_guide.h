@@ -56,6 +56,7 @@ class BoundaryGuide {
     /// kinks.
     std::array<Vec3, 2> segment(VertexId v, std::uint32_t item) const;
 
+    const GuideSurface& surface() const;
     /// Length of the surface's diagonal.
     double diagonal() const;
     std::size_t curve_count() const { return curve_count_; }

@@ -45,26 +45,63 @@ struct Frame {
     }
 };
 
-/// -log(q - floor) of the scaled determinant q of three vectors, with its derivative for each.
-double barrier(const std::array<Vec3, 3>& vectors, double floor, std::array<Vec3, 3>* gradient) {
-    const std::array<double, 3> square = {vectors[0].squaredNorm(), vectors[1].squaredNorm(),
-                                          vectors[2].squaredNorm()};
-    const double product = square[0] * square[1] * square[2];
-    if (!(product > 0.0)) return infinity;
-    const double inverse_volume = 1.0 / std::sqrt(product);
-    const Vec3 cross = vectors[1].cross(vectors[2]);
-    const double q = inverse_volume * vectors[0].dot(cross);
-    const double gap = q - floor;
-    if (!(gap > 0.0)) return infinity;
-    if (gradient != nullptr) {
-        const double factor = -1.0 / gap;
-        for (std::size_t i = 0; i < 3; ++i) {
-            const Vec3 cofactor = i == 0 ? cross : vectors[(i + 1) % 3].cross(vectors[(i + 2) % 3]);
-            (*gradient)[i] = factor * (inverse_volume * cofactor - (q / square[i]) * vectors[i]);
+/// The nine numbers whose minimum is Verdict's scaled Jacobian: scaled determinants of the edges at the eight
+/// corners, and of the principal axes at the centre.
+struct ScaledDeterminants {
+    static constexpr std::size_t count = 9;
+    std::array<std::array<Vec3, 3>, count> vectors;
+    std::array<double, count> value;
+    std::array<double, count> inverse_volume;
+    bool valid = true;  ///< no vector has no length
+
+    explicit ScaledDeterminants(const HexCorners& corners) {
+        vectors[8] = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
+        for (std::size_t corner = 0; corner < 8; ++corner) {
+            for (std::size_t i = 0; i < 3; ++i) {
+                const auto neighbour = static_cast<std::size_t>(hexahedron::corner_neighbours[corner][i]);
+                vectors[corner][i] = corners[neighbour] - corners[corner];
+                if (hexahedron::corner_uvw[corner][i] == 1)
+                    vectors[8][i] += corners[corner];
+                else
+                    vectors[8][i] -= corners[corner];
+            }
+        }
+        for (std::size_t k = 0; k < count; ++k) {
+            const auto& v = vectors[k];
+            const double product = v[0].squaredNorm() * v[1].squaredNorm() * v[2].squaredNorm();
+            if (!(product > 0.0)) {
+                valid = false;
+                return;
+            }
+            inverse_volume[k] = 1.0 / std::sqrt(product);
+            value[k] = inverse_volume[k] * v[0].dot(v[1].cross(v[2]));
         }
     }
-    return -std::log(gap);
-}
+
+    /// Adds the gradient of a function of the numbers, whose derivatives for them are given.
+    void add_gradient(const std::array<double, count>& slope, HexCorners& gradient) const {
+        for (std::size_t k = 0; k < count; ++k) {
+            for (std::size_t i = 0; i < 3; ++i) {
+                const auto& v = vectors[k];
+                const Vec3 part = slope[k] * (inverse_volume[k] * v[(i + 1) % 3].cross(v[(i + 2) % 3]) -
+                                              (value[k] / v[i].squaredNorm()) * v[i]);
+                if (k < 8) {
+                    gradient[static_cast<std::size_t>(hexahedron::corner_neighbours[k][i])] += part;
+                    gradient[k] -= part;
+                    continue;
+                }
+                for (std::size_t corner = 0; corner < 8; ++corner) {
+                    if (hexahedron::corner_uvw[corner][i] == 1)
+                        gradient[corner] += part;
+                    else
+                        gradient[corner] -= part;
+                }
+            }
+        }
+    }
+
+    double smallest() const { return *std::min_element(value.begin(), value.end()); }
+};
 
 }  // namespace
 
@@ -105,35 +142,40 @@ double FoldoverEnergy::smallest_determinant(const HexCorners& corners, const Vec
 }
 
 double QualityBarrier::evaluate(const HexCorners& corners, HexCorners* gradient) const {
-    double sum = 0.0;
-    std::array<Vec3, 3> slope;
-    for (std::size_t corner = 0; corner < 8; ++corner) {
-        const Frame frame(corners, corner, Vec3::Ones());
-        const double value = barrier(frame.edge, floor, gradient == nullptr ? nullptr : &slope);
-        if (value == infinity) return infinity;
-        sum += value;
-        if (gradient == nullptr) continue;
-        for (std::size_t i = 0; i < 3; ++i) frame.scatter(corner, i, slope[i], *gradient);
+    const ScaledDeterminants numbers(corners);
+    if (!numbers.valid || !(numbers.smallest() > floor)) return infinity;
+    std::array<double, ScaledDeterminants::count> slope;
+    double product = 1.0;
+    for (std::size_t k = 0; k < slope.size(); ++k) {
+        const double gap = numbers.value[k] - floor;
+        product *= gap;
+        slope[k] = -1.0 / gap;
     }
-    // The principal axes at the centre, times four.
-    std::array<Vec3, 3> axes = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
-    for (std::size_t corner = 0; corner < 8; ++corner) {
-        for (std::size_t i = 0; i < 3; ++i)
-            axes[i] += hexahedron::corner_uvw[corner][i] == 1 ? corners[corner] : Vec3(-corners[corner]);
+    if (gradient != nullptr) numbers.add_gradient(slope, *gradient);
+    return -std::log(product);
+}
+
+double QualityMean::evaluate(const HexCorners& corners, HexCorners* gradient) const {
+    const ScaledDeterminants numbers(corners);
+    if (!numbers.valid || !(numbers.smallest() > floor)) return infinity;
+    const auto power = [](double x) { return (x * x) * (x * x) * (x * x); };
+    double sum = 1e-18;  // the root has no slope at 0
+    double product = 1.0;
+    for (const double q : numbers.value) {
+        sum += power(1.0 - q);
+        product *= q - floor;
     }
-    const double value = barrier(axes, floor, gradient == nullptr ? nullptr : &slope);
-    if (value == infinity) return infinity;
+    const double norm = std::cbrt(std::sqrt(sum));
     if (gradient != nullptr) {
-        for (std::size_t corner = 0; corner < 8; ++corner) {
-            for (std::size_t i = 0; i < 3; ++i) {
-                if (hexahedron::corner_uvw[corner][i] == 1)
-                    (*gradient)[corner] += slope[i];
-                else
-                    (*gradient)[corner] -= slope[i];
-            }
+        std::array<double, ScaledDeterminants::count> slope;
+        for (std::size_t k = 0; k < slope.size(); ++k) {
+            const double defect = 1.0 - numbers.value[k];
+            slope[k] = -norm / sum * (defect * defect) * (defect * defect) * defect -
+                       barrier_weight / (numbers.value[k] - floor);
         }
+        numbers.add_gradient(slope, *gradient);
     }
-    return sum + value;
+    return norm - barrier_weight * std::log(product);
 }
 
 }  // namespace hex

@@ -63,8 +63,7 @@ class Matcher {
         double length = 0.0;
         for (std::size_t i = 0; i + 1 < stations.size(); ++i) {
             if (!stations[i].valid() || !stations[i + 1].valid() || stations[i] == stations[i + 1]) return {};
-            const std::vector<VertexId> piece =
-                shortest(stations[i], stations[i + 1], search, curve.closed());
+            const std::vector<VertexId> piece = shortest(stations[i], stations[i + 1], search);
             if (piece.empty()) return {};
             for (std::size_t k = 1; k < piece.size(); ++k) {
                 length += (mesh_.position(piece[k]) - mesh_.position(piece[k - 1])).norm();
@@ -178,7 +177,7 @@ class Matcher {
     }
 
     /// Dijkstra's path through free boundary vertices near the curve.
-    std::vector<VertexId> shortest(VertexId from, VertexId to, const SegmentSearch& search, bool) const {
+    std::vector<VertexId> shortest(VertexId from, VertexId to, const SegmentSearch& search) const {
         struct Step {
             double cost;
             VertexId vertex, previous;
@@ -199,11 +198,9 @@ class Matcher {
                 const VertexId w = edges_.other(e, v);
                 if (!edges_.boundary[e.index()] || previous.contains(w.value())) continue;
                 if (taken_[w.index()] && w != to) continue;
-                const Vec3 middle = 0.5 * (mesh_.position(v) + mesh_.position(w));
                 const double size = edge_length(w);
-                const double off =
-                    std::max((search.closest(mesh_.position(w), 0).point - mesh_.position(w)).norm(),
-                             (search.closest(middle, 0).point - middle).norm());
+                // Not where the middle of the edge is: on a bent curve it has to be off.
+                const double off = (search.closest(mesh_.position(w), 0).point - mesh_.position(w)).norm();
                 if (off > farthest * size) continue;
                 const double share = off / size;
                 const double length = (mesh_.position(v) - mesh_.position(w)).norm();

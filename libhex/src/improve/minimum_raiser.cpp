@@ -54,6 +54,15 @@ std::vector<Vec3> reference_boxes(const HexMesh& mesh, const EdgeTable& edges) {
     return boxes;
 }
 
+/// How much larger the distances to the surface may get.
+constexpr double fidelity_loss = 0.05;
+/// Distances that are as good as none, in shares of the diagonal.
+constexpr double negligible = 1e-4;
+/// Meshes that are remembered until one is chosen.
+constexpr std::size_t most_candidates = 12;
+/// What raising the mean may cost the minimum.
+constexpr double minimum_for_mean = 0.02;
+
 double smallest_determinant(const HexMesh& mesh, const std::vector<Vec3>& boxes) {
     return parallel_reduce(
         boxes.size(), std::numeric_limits<double>::infinity(),
@@ -95,6 +104,7 @@ MinimumRaiser::MinimumRaiser(const HexMesh& mesh, GuideSurface surface, const Im
       boundary_(boundary_quads(mesh)),
       guide_(mesh, edges_, boundary_, std::move(surface), {.sharp_cosine = options.feature_cosine}),
       sliding_(mesh, edges_, &guide_, boundary_),
+      meter_(edges_, boundary_, guide_.surface(), options.feature_cosine),
       best_(mesh) {}
 
 std::size_t MinimumRaiser::sharp_edge_count() const {
@@ -115,11 +125,16 @@ void MinimumRaiser::record(bool eligible) {
     now_ = record_of(scaled_jacobians(sliding_.mesh(), context_));
     now_.sweep = static_cast<int>(history_.size()) + 1;
     history_.push_back(now_);
-    if (!eligible || (has_best_ && !better(now_, best_record_))) return;
+    if (!eligible) return;
+    const bool full = candidates_.size() == most_candidates;
+    if (full && !better(now_, candidates_.back().record)) return;
     if (deviation() > std::max(most_deviation_, 1e-12 * guide_.diagonal())) return;
-    has_best_ = true;
-    best_.set_positions({sliding_.positions().begin(), sliding_.positions().end()});
-    best_record_ = now_;
+    if (full) candidates_.pop_back();
+    const auto place = std::find_if(candidates_.begin(), candidates_.end(), [&](const Candidate& candidate) {
+        return better(now_, candidate.record);
+    });
+    candidates_.insert(place,
+                       {now_, {sliding_.positions().begin(), sliding_.positions().end()}, std::nullopt});
 }
 
 double MinimumRaiser::deviation() const {
@@ -133,6 +148,17 @@ double MinimumRaiser::deviation() const {
         [](double a, double b) { return std::max(a, b); });
 }
 
+void MinimumRaiser::measure_start() {
+    sliding_.attach();
+    fidelity_before_ = meter_.measure(sliding_.positions());
+    const double least = negligible * guide_.diagonal();
+    limits_.distance = (1.0 + fidelity_loss) * std::max(fidelity_before_.distance, least);
+    limits_.features = (1.0 + fidelity_loss) * std::max(fidelity_before_.features, least);
+    keeper_.emplace(edges_, boundary_, guide_.surface(), options_.feature_cosine, sliding_.positions());
+    keeper_->set_limit(limits_.distance);
+    sliding_.set_keeper(&*keeper_);
+}
+
 void MinimumRaiser::run() {
     const bool exact_surface = options_.surface != nullptr;
     const double percent =
@@ -141,6 +167,7 @@ void MinimumRaiser::run() {
     most_deviation_ = 0.0099 * percent * guide_.diagonal();
     const double most_slack = std::min(most_deviation_, 0.01 * largest_slack * guide_.diagonal());
 
+    if (exact_surface) measure_start();
     exact_ = !exact_surface;
     sliding_.use_smooth_curves(true);
     sliding_.attach();
@@ -148,7 +175,8 @@ void MinimumRaiser::run() {
     if (now_.inverted > 0) untangle();
     raise();
     context_.progress("improve", 0.5);
-    if (exact_surface || !has_best_ || best_record_.inverted > 0) {
+    const auto solved = [&] { return !candidates_.empty() && candidates_.front().record.inverted == 0; };
+    if (exact_surface || !solved()) {
         exact_ = true;
         sliding_.use_smooth_curves(false);
         sliding_.attach();
@@ -157,17 +185,71 @@ void MinimumRaiser::run() {
         raise();
         context_.progress("improve", 0.75);
     }
-    if (has_best_ && most_slack > 0.0 && best_record_.min < good_enough) {
+    if (!candidates_.empty() && most_slack > 0.0) {
         for (const double share : {0.5, 1.0}) {
-            sliding_.set_positions(best_.positions());
+            if (candidates_.front().record.min >= good_enough) break;
+            sliding_.set_positions(candidates_.front().positions);
             sliding_.set_slack(share * most_slack);
             sliding_.attach();
-            if (best_record_.inverted > 0) ascend();
+            if (!solved()) ascend();
             raise();
-            if (best_record_.min >= good_enough) break;
         }
     }
+    if (!candidates_.empty()) {
+        raise_mean();
+        choose();
+        if (exact_surface && chosen_->record.inverted == 0 && !fidelity_after_.within(limits_))
+            restore_fidelity();
+    }
     context_.progress("improve", 1.0);
+}
+
+void MinimumRaiser::raise_mean() {
+    if (candidates_.front().record.inverted > 0) return;
+    const Candidate start = candidates_.front();
+    sliding_.set_positions(start.positions);
+    QualityMean mean;
+    mean.floor = start.record.min - minimum_for_mean;
+    DescentOptions descent;
+    descent.most_iterations = 100;
+    (void)descend(
+        sliding_,
+        [&](std::size_t, const HexCorners& corners, HexCorners* gradient) {
+            return mean.evaluate(corners, gradient);
+        },
+        descent, context_);
+    record(exact_);
+}
+
+void MinimumRaiser::choose() {
+    const auto violation = [&](const Fidelity& f) {
+        return std::max(f.distance / limits_.distance, f.features / limits_.features);
+    };
+    chosen_ = candidates_.front();
+    if (options_.surface != nullptr) {
+        double least = std::numeric_limits<double>::infinity();
+        for (Candidate& candidate : candidates_) {
+            if (candidate.record.inverted > candidates_.front().record.inverted) break;
+            if (!candidate.fidelity) candidate.fidelity = meter_.measure(candidate.positions);
+            const double beyond = std::max(1.0, violation(*candidate.fidelity));
+            if (beyond >= least) continue;
+            least = beyond;
+            chosen_ = candidate;
+            if (beyond == 1.0) break;
+        }
+    }
+    fidelity_after_ = chosen_->fidelity ? *chosen_->fidelity : meter_.measure(chosen_->positions);
+    best_.set_positions(chosen_->positions);
+}
+
+void MinimumRaiser::restore_fidelity() {
+    for (int round = 0; round < 3 && !fidelity_after_.within(limits_); ++round) {
+        keeper_->set_strength(4.0 * keeper_->strength());
+        sliding_.set_positions(chosen_->positions);
+        candidates_.resize(std::min(candidates_.size(), most_candidates / 2));
+        lower_barrier(0.3);
+        choose();
+    }
 }
 
 void MinimumRaiser::untangle() {

@@ -22,8 +22,11 @@ GuideSurface make_guide_surface(const HexMesh& mesh, const BoundaryQuads& bounda
 /// 3. in turns the barrier over all vertices (corner_energies.h) and the star ascent (star_ascent.h), with
 ///    narrower and narrower gaps between the barrier's floor and the minimum;
 /// 4. the same on the exact curves, when a surface was given;
-/// 5. the same with the slack that `max_deviation` allows, when the minimum is below `good_enough`.
-/// The best mesh met on the exact surface is kept.
+/// 5. the same with the slack that `max_deviation` allows, when the minimum is below `good_enough`;
+/// 6. the mean is raised, the minimum kept;
+/// 7. of the meshes met on the exact surface the best is taken that is as close to the surface as the input
+///    was (fidelity_meter.h), give or take `fidelity_loss`; when none is, more weight is put on the shape of
+///    the boundary (shape_keeper.h) and 3 repeated.
 class MinimumRaiser {
   public:
     MinimumRaiser(const HexMesh& mesh, GuideSurface surface, const ImproveOptions& options,
@@ -32,9 +35,13 @@ class MinimumRaiser {
     void run();
 
     /// Whether any mesh within `max_deviation` was met.
-    bool has_best() const { return has_best_; }
+    bool has_best() const { return chosen_.has_value(); }
     const HexMesh& best() const { return best_; }
-    const ImproveRecord& best_record() const { return best_record_; }
+    const ImproveRecord& best_record() const { return chosen_->record; }
+    /// Of the input on the surface, of the best, and what was allowed.
+    const Fidelity& fidelity_before() const { return fidelity_before_; }
+    const Fidelity& fidelity_after() const { return fidelity_after_; }
+    const Fidelity& fidelity_limits() const { return limits_; }
     const std::vector<ImproveRecord>& history() const { return history_; }
     std::size_t sharp_edge_count() const;
     const BoundaryGuide& guide() const { return guide_; }
@@ -46,8 +53,14 @@ class MinimumRaiser {
     /// Barrier descents with floors `gap` below the minimum, while they help.
     void lower_barrier(double gap);
     void ascend();
-    /// Notes the mesh as it is now; keeps it if `eligible` and better.
+    void raise_mean();
+    /// The best candidate that is within the limits; otherwise the one that is least beyond them.
+    void choose();
+    /// The same steps with more and more weight on the shape, until a mesh is within the limits.
+    void restore_fidelity();
+    /// Notes the mesh as it is now; it becomes a candidate if `eligible`.
     void record(bool eligible);
+    void measure_start();
     /// The minimum at which raising stops.
     double aim() const;
     bool reached_target() const;
@@ -60,12 +73,20 @@ class MinimumRaiser {
     BoundaryQuads boundary_;
     BoundaryGuide guide_;
     SlidingMesh sliding_;
+    FidelityMeter meter_;
+    std::optional<ShapeKeeper> keeper_;
+    Fidelity fidelity_before_, fidelity_after_, limits_;
+    struct Candidate {
+        ImproveRecord record;
+        std::vector<Vec3> positions;
+        std::optional<Fidelity> fidelity;
+    };
+    std::vector<Candidate> candidates_;  // the best first
+    std::optional<Candidate> chosen_;
     HexMesh best_;
-    ImproveRecord best_record_;
     ImproveRecord now_;
     double most_deviation_ = 0.0;
     bool exact_ = false;
-    bool has_best_ = false;
     std::vector<ImproveRecord> history_;
 };
 

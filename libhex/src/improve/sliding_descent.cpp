@@ -84,9 +84,11 @@ double SlidingMesh::evaluate(const CellEnergy& energy, std::vector<Vec3>* gradie
             cell_value_[c] = energy(c, mesh_.corner_positions(CellId(c)), own);
         },
         128);
-    const double sum = parallel_reduce(
+    double sum = parallel_reduce(
         cell_value_.size(), 0.0, [&](double s, std::size_t c) { return s + cell_value_[c]; },
         [](double a, double b) { return a + b; });
+    if (gradient == nullptr && keeper_ != nullptr && std::isfinite(sum))
+        sum += keeper_->evaluate(positions(), nullptr);
     if (gradient != nullptr) {
         gradient->resize(mesh_.vertex_count());
         parallel_for(mesh_.vertex_count(), [&](std::size_t v) {
@@ -94,6 +96,7 @@ double SlidingMesh::evaluate(const CellEnergy& energy, std::vector<Vec3>* gradie
             for (const std::uint32_t corner : corners_at_[v]) total += cell_gradient_[corner / 8][corner % 8];
             (*gradient)[v] = total;
         });
+        if (keeper_ != nullptr && std::isfinite(sum)) sum += keeper_->evaluate(positions(), gradient);
         make_tangential(*gradient, -1.0);
     }
     return sum;
@@ -202,6 +205,7 @@ DescentResult descend(SlidingMesh& mesh, const SlidingMesh::CellEnergy& energy, 
         parallel_for(n, [&](std::size_t i) { v[i] += factor * w[i]; });
     };
 
+    if (mesh.keeper() != nullptr) mesh.keeper()->follow(mesh.positions());
     std::vector<Vec3> gradient;
     double value = mesh.evaluate(energy, &gradient);
     result.before = result.after = value;

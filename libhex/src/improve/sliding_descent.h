@@ -3,6 +3,7 @@
 #pragma once
 
 #include "improve/boundary_guide.h"
+#include "improve/shape_keeper.h"
 
 #include <hex/base/context.h>
 
@@ -32,6 +33,10 @@ class SlidingMesh {
     /// first. Takes effect with the next `attach`.
     void use_smooth_curves(bool smooth);
     bool smooth_curves() const { return smooth_; }
+
+    /// From now on `evaluate` adds the energy of this; null: nothing (as at first).
+    void set_keeper(ShapeKeeper* keeper) { keeper_ = keeper; }
+    ShapeKeeper* keeper() const { return keeper_; }
 
     /// Brings every boundary vertex to its nearest place on its part of the surface.
     void attach();
@@ -65,6 +70,7 @@ class SlidingMesh {
     /// Closest point on the vertex's part, without slack.
     BoundaryGuide::Place on_part(VertexId v, const Vec3& p) const;
 
+    ShapeKeeper* keeper_ = nullptr;
     double slack_ = 0.0;
     bool smooth_ = false;
     HexMesh mesh_;

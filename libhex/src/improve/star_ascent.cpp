@@ -11,12 +11,18 @@
 namespace hex::improving {
 namespace {
 
+/// Below this minimum a star may be mended at any cost to the shape of the boundary.
+constexpr double careless = 0.3;
+/// Energy of the shape that a scaled Jacobian may cost: the slope of the barrier at a gap of 0.1.
+constexpr double exchange = 10.0;
 /// Lengths of the tried steps in shares of the mean edge length.
 constexpr std::array<double, 6> steps = {0.4, 0.15, 0.05, 0.015, 0.005, 0.0015};
 
 class StarAscent {
   public:
-    explicit StarAscent(SlidingMesh& mesh) : mesh_(mesh), sizes_(mesh.vertex_sizes()) {}
+    explicit StarAscent(SlidingMesh& mesh) : mesh_(mesh), sizes_(mesh.vertex_sizes()) {
+        if (mesh.keeper() != nullptr) mesh.keeper()->follow(mesh.positions());
+    }
 
     /// Moves v to the best place found; whether it moved.
     bool raise(VertexId v) {
@@ -27,6 +33,8 @@ class StarAscent {
         if (bound && mesh_.guide() == nullptr) return false;
         const Freedom freedom = bound ? mesh_.guide()->freedom(v) : Freedom::interior;
         if (freedom == Freedom::corner) return false;
+        const bool kept = bound && mesh_.keeper() != nullptr && now >= careless;
+        const double cost = kept ? mesh_.keeper()->around(v, here, mesh_.positions()) : 0.0;
         BoundaryGuide::Place best_place{here, Vec3::Zero(), 0};
         bool found = false;
         const auto attempt = [&](const Vec3& p) {
@@ -34,6 +42,9 @@ class StarAscent {
                 bound ? mesh_.place(v, p) : BoundaryGuide::Place{p, Vec3::Zero(), 0};
             const double quality = star_minimum(v, place.point, best);
             if (!(quality > best)) return;
+            if (kept &&
+                mesh_.keeper()->around(v, place.point, mesh_.positions()) - cost > exchange * (quality - now))
+                return;
             best = quality;
             best_place = place;
             found = true;

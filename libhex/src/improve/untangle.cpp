@@ -34,7 +34,7 @@ void report_distance(const MinimumRaiser& raiser, ImproveReport& report) {
         const Vec3& p = raiser.best().position(v);
         largest = std::max(largest, (raiser.guide().nearest(v, p, 0).point - p).norm());
     }
-    char text[160];
+    char text[240];
     std::snprintf(
         text, sizeof text,
         "boundary vertices are at most %.3g %% of the diagonal off their part of the surface; %zu of "
@@ -42,6 +42,13 @@ void report_distance(const MinimumRaiser& raiser, ImproveReport& report) {
         100.0 * largest / raiser.guide().diagonal(), raiser.guide().matched_curve_count(),
         raiser.guide().curve_count());
     report.diagnostics.push_back({Severity::note, "surface-distance", text, "", {}});
+    const double percent = 100.0 / raiser.guide().diagonal();
+    std::snprintf(text, sizeof text,
+                  "largest distance between boundary and surface %.4g %% of the diagonal (input %.4g), mean "
+                  "distance of sharp edges %.4g %% (input %.4g)",
+                  percent * raiser.fidelity_after().distance, percent * raiser.fidelity_before().distance,
+                  percent * raiser.fidelity_after().features, percent * raiser.fidelity_before().features);
+    report.diagnostics.push_back({Severity::note, "fidelity", text, "", {}});
 }
 
 /// The raiser's mesh, or the input where that is better.

@@ -1,4 +1,5 @@
 /// Sample runs:
+///   hexspline improve -i part.vtk --surface part_segment.k -o part_improved.vtk
 ///   hexspline improve -i rod_hex.vtk -Q -m 1 -n 1 -o rod_hex_pillow.vtk
 ///   hexspline improve -i rod_hex_pillow.vtk -Q -m 2 -p 0.001 -n 50 -s 2 -o rod_hex_pillow_smooth.vtk
 ///   hexspline improve -i part.vtk -m smooth -s 1 -t 0.8 --surface part_segment.k -o part_smooth.vtk
@@ -21,7 +22,7 @@ void describe(CommandLine& line) {
     line.add_input("hexahedral mesh");
     line.add_output("improved mesh");
     line.add_switch("Quality,Q", "accepted and without effect, as in the paper's command lines");
-    line.add("method,m", value<std::string>("NAME")->default_value("smooth"),
+    line.add("method,m", value<std::string>("NAME")->default_value("auto"),
              "laplace, pillow, smooth, optimize (or 0, 1, 2, 3 as in the paper), untangle, auto, snap, or a "
              "plug-in's");
     line.add("count,n", value<int>(), "layers of pillow (1), sweeps of the others (50)");
@@ -147,9 +148,12 @@ int run(CommandLine& line) {
 const RegisterCommand registered(
     {.name = "improve",
      .order = 40,
-     .summary = "make a hexahedral mesh better: pillow, smooth, optimize",
-     .description = "Vertices move only where the smallest scaled Jacobian around them does not fall.",
-     .sample_runs = {"hexspline improve -i rod_hex.vtk -Q -m 1 -n 1 -o rod_hex_pillow.vtk",
+     .summary = "make a hexahedral mesh better: untangle it, raise its smallest scaled Jacobian",
+     .description = "The result is never worse than the input in inverted elements and smallest scaled "
+                    "Jacobian, and its\n"
+                    "boundary stays as close to the surface as it was.",
+     .sample_runs = {"hexspline improve -i part.vtk --surface part_segment.k -o part_improved.vtk",
+                     "hexspline improve -i rod_hex.vtk -Q -m 1 -n 1 -o rod_hex_pillow.vtk",
                      "hexspline improve -i rod_hex_pillow.vtk -Q -m 2 -p 0.001 -n 50 -s 2 -o "
                      "rod_hex_pillow_smooth.vtk",
                      "hexspline improve -i part.vtk -m smooth -s 1 -t 0.8 --surface part_segment.k -o "

@@ -219,7 +219,7 @@ void describe(CommandLine& line) {
     describe_element_size(line);
     line.add("weight,l", value<double>()->default_value(0.1, "0.1"),
              "segment: weight of the boundary-enhanced term; with it the method is hbecvt");
-    line.add("improve", value<std::string>("LIST")->default_value("smooth,optimize"),
+    line.add("improve", value<std::string>("LIST")->default_value("auto"),
              "methods of stage improve, in order, separated by commas; none to leave the mesh as it is");
     line.add("sharp-cosine,t", value<double>()->default_value(0.8, "0.8"),
              "improve, spline: cosine of the angle between normals below which a boundary edge is sharp");

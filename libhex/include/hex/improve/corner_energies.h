@@ -1,5 +1,5 @@
 /// \file corner_energies.h
-/// The two energies that `untangle` minimises, for one hexahedron: sums over its corner tetrahedra.
+/// The energies that `untangle` and `auto` minimise, for one hexahedron.
 ///
 /// A corner tetrahedron is spanned by the three edges a, b, c at a corner in right-handed order, divided by
 /// the three lengths of a reference box; it is right-angled and of the wished size when (a b c) is a
@@ -35,6 +35,15 @@ struct FoldoverEnergy {
 /// the worst q from below raises the minimum (method of centres; Huard 1967); infinite unless all q > floor.
 struct QualityBarrier {
     double floor = -1.0;  ///< < 1
+    double evaluate(const HexCorners& corners, HexCorners* gradient) const;
+};
+
+/// How far a hexahedron's scaled Jacobian is from 1, in a form that can be derived: the sixth root of the sum
+/// of (1 - q)^6 over the same nine numbers q, and barrier_weight times the barrier, which keeps all of them
+/// above `floor`. Minimising the sum over a mesh raises the mean.
+struct QualityMean {
+    double floor = -1.0;           ///< < 1
+    double barrier_weight = 0.01;  ///< >= 0
     double evaluate(const HexCorners& corners, HexCorners* gradient) const;
 };
 

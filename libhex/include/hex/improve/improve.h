@@ -20,7 +20,7 @@ namespace hex {
 struct ImproveOptions {
     /// Name of the method in the registry: `laplace`, `pillow`, `smooth`, `optimize` (paper, section on
     /// quality), `untangle`, `auto`, or a plug-in's.
-    std::string method = "smooth";
+    std::string method = "auto";
     /// Layers (pillow) or sweeps (the others), >= 0. -1: the method's own default, 1 layer or 50 sweeps.
     int count = -1;
     /// In (0, 1]. laplace, smooth: share of the computed move that is made. optimize: first step of the line

@@ -1,0 +1,311 @@
+#include "improve/shape_keeper.h"
+
+#include "improve/search_set.h"
+#include "volume/counting_rows.h"
+
+#include <hex/base/parallel.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hex::improving {
+namespace {
+
+constexpr double surface_weight = 20.0;  // of a quad
+constexpr double sharp_weight = 4.0;     // of an edge
+/// Where the energy of sharp edges turns from a square to a straight line, in shares of the size.
+constexpr double turn = 0.05;
+/// Points on sharp edges farther than this share of the size from any edge are not the mesh's to follow.
+constexpr double sharp_reach = 0.5;
+/// The hinge H max(0, (r / L)^2 - s)^2.
+constexpr double hinge = 50.0;
+constexpr double hinge_start = 0.6;
+/// The surface is flat where the normals' cosine is above this.
+constexpr double flat_cosine = 0.9995;
+constexpr int most_steps = 20;
+constexpr std::size_t grain = 64;
+
+struct Nearest {
+    std::array<double, 3> shares;
+    double squared;
+};
+
+/// Closest point of a triangle in barycentric coordinates (Ericson, Real-Time Collision Detection, 5.1.5).
+Nearest nearest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
+    const auto at = [&](double s, double t, double u) {
+        return Nearest{{s, t, u}, (s * a + t * b + u * c - p).squaredNorm()};
+    };
+    const Vec3 ab = b - a;
+    const Vec3 ac = c - a;
+    const Vec3 ap = p - a;
+    const double d1 = ab.dot(ap);
+    const double d2 = ac.dot(ap);
+    if (d1 <= 0.0 && d2 <= 0.0) return at(1.0, 0.0, 0.0);
+    const Vec3 bp = p - b;
+    const double d3 = ab.dot(bp);
+    const double d4 = ac.dot(bp);
+    if (d3 >= 0.0 && d4 <= d3) return at(0.0, 1.0, 0.0);
+    const double vc = d1 * d4 - d3 * d2;
+    if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) return at(1.0 - d1 / (d1 - d3), d1 / (d1 - d3), 0.0);
+    const Vec3 cp = p - c;
+    const double d5 = ab.dot(cp);
+    const double d6 = ac.dot(cp);
+    if (d6 >= 0.0 && d5 <= d6) return at(0.0, 0.0, 1.0);
+    const double vb = d5 * d2 - d1 * d6;
+    if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) return at(1.0 - d2 / (d2 - d6), 0.0, d2 / (d2 - d6));
+    const double va = d3 * d6 - d5 * d4;
+    if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0) {
+        const double w = (d4 - d3) / ((d4 - d3) + (d5 - d6));
+        return at(0.0, 1.0 - w, w);
+    }
+    const double sum = va + vb + vc;
+    return at(va / sum, vb / sum, vc / sum);
+}
+
+Nearest nearest_on_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
+    const Vec3 d = b - a;
+    const double square = d.squaredNorm();
+    const double t = square > 0.0 ? std::clamp((p - a).dot(d) / square, 0.0, 1.0) : 0.0;
+    return {{1.0 - t, t, 0.0}, (a + t * d - p).squaredNorm()};
+}
+
+}  // namespace
+
+ShapeKeeper::ShapeKeeper(const EdgeTable& edges, const BoundaryQuads& boundary, const GuideSurface& surface,
+                         double sharp_cosine, std::span<const Vec3> positions)
+    : edges_(edges), boundary_(boundary), limit_(surface.diagonal), near_edges_(edges.size()) {
+    constexpr std::uint32_t none = ~std::uint32_t{0};
+    std::vector<std::array<std::uint32_t, 2>> quads_at(edges.size(), {none, none});
+    std::vector<std::array<EdgeId, 4>> quad_edges(boundary.size());
+    for (std::uint32_t q = 0; q < boundary.size(); ++q) {
+        for (std::size_t i = 0; i < 4; ++i) {
+            const EdgeId e = edges.find(boundary.vertices[q][i], boundary.vertices[q][(i + 1) % 4]);
+            quad_edges[q][i] = e;
+            auto& sides = quads_at[e.index()];
+            sides[sides[0] == none ? 0 : 1] = q;
+        }
+    }
+    near_quads_ = rows_by_counting<std::uint32_t>(boundary.size(), [&](const auto& emit) {
+        for (std::uint32_t q = 0; q < boundary.size(); ++q) {
+            emit(q, q);
+            for (const EdgeId e : quad_edges[q])
+                for (const std::uint32_t side : quads_at[e.index()])
+                    if (side != none && side != q) emit(q, side);
+        }
+    });
+    for (std::uint32_t e = 0; e < edges.size(); ++e) {
+        if (!edges.boundary[e]) continue;
+        near_edges_[e].push_back(e);
+        for (const VertexId v : edges.vertices[e])
+            for (const EdgeId next : edges.vertex_edges[v.index()])
+                if (edges.boundary[next.index()] && next.index() != e) near_edges_[e].push_back(next.value());
+    }
+    double length = 0.0;
+    std::size_t count = 0;
+    for (std::size_t e = 0; e < edges.size(); ++e) {
+        if (!edges.boundary[e]) continue;
+        length += (positions[edges.vertices[e][0].index()] - positions[edges.vertices[e][1].index()]).norm();
+        ++count;
+    }
+    add_surface_points(surface, 0.5 * length / static_cast<double>(count), positions);
+    add_sharp_points(surface, sharp_cosine, positions);
+    feet_.resize(points_.size());
+    costs_.resize(points_.size());
+    follow(positions);
+}
+
+std::vector<double> ShapeKeeper::quad_sizes(std::span<const Vec3> positions) const {
+    std::vector<double> sizes;
+    double mean = 0.0;
+    for (const auto& quad : boundary_.vertices) {
+        double sum = 0.0;
+        for (std::size_t i = 0; i < 4; ++i)
+            sum += (positions[quad[i].index()] - positions[quad[(i + 1) % 4].index()]).norm();
+        sizes.push_back(0.25 * sum);
+        mean += 0.25 * sum / static_cast<double>(boundary_.size());
+    }
+    // Quads crushed to nothing must not weigh infinitely.
+    for (double& size : sizes) size = std::max(size, 0.25 * mean);
+    return sizes;
+}
+
+void ShapeKeeper::add_surface_points(const GuideSurface& surface, double spacing,
+                                     std::span<const Vec3> positions) {
+    std::vector<Vec3> places;
+    std::vector<char> bent(surface.points.size(), 0);
+    for (const GuideSurface::Edge& edge : surface.edges) {
+        if (edge.cosine > flat_cosine) continue;
+        const Vec3& a = surface.points[edge.vertices[0]];
+        const Vec3& b = surface.points[edge.vertices[1]];
+        for (const std::uint32_t v : edge.vertices) bent[v] = 1;
+        const int pieces = static_cast<int>(std::min(1000.0, std::ceil((b - a).norm() / spacing)));
+        for (int i = 1; i < pieces; ++i) places.emplace_back(a + static_cast<double>(i) / pieces * (b - a));
+    }
+    for (std::size_t v = 0; v < bent.size(); ++v)
+        if (bent[v]) places.push_back(surface.points[v]);
+    // No more than are needed on surfaces much finer than the mesh.
+    const std::size_t stride = 1 + places.size() / (12 * boundary_.size());
+
+    std::vector<SearchKernel::Triangle_3> triangles;
+    const auto at = [&](VertexId v) { return to_search_point(positions[v.index()]); };
+    for (const auto& quad : boundary_.vertices) {
+        triangles.emplace_back(at(quad[0]), at(quad[1]), at(quad[2]));
+        triangles.emplace_back(at(quad[0]), at(quad[2]), at(quad[3]));
+    }
+    const TriangleSearch search(std::move(triangles));
+    const std::vector<double> sizes = quad_sizes(positions);
+    points_.resize(places.size() / stride);
+    parallel_for(
+        points_.size(),
+        [&](std::size_t i) {
+            const Vec3& p = places[i * stride];
+            const std::uint32_t quad = search.closest(p, 0).item / 2;
+            points_[i] = {p, quad, 1.0, sizes[quad], false};
+        },
+        grain);
+    share_weights(0, boundary_.size(), surface_weight);
+}
+
+void ShapeKeeper::add_sharp_points(const GuideSurface& surface, double sharp_cosine,
+                                   std::span<const Vec3> positions) {
+    std::vector<SearchKernel::Segment_3> segments;
+    std::vector<std::uint32_t> numbers;
+    for (std::uint32_t e = 0; e < edges_.size(); ++e) {
+        if (!edges_.boundary[e]) continue;
+        segments.emplace_back(to_search_point(positions[edges_.vertices[e][0].index()]),
+                              to_search_point(positions[edges_.vertices[e][1].index()]));
+        numbers.push_back(e);
+    }
+    const SegmentSearch search(std::move(segments));
+    const std::size_t first = points_.size();
+    const auto add = [&](const Vec3& p) {
+        const auto found = search.closest(p, 0);
+        const std::uint32_t e = numbers[found.item];
+        double size = 0.0;
+        for (const std::uint32_t near : near_edges_[e])
+            size +=
+                (positions[edges_.vertices[near][0].index()] - positions[edges_.vertices[near][1].index()])
+                    .norm();
+        size /= static_cast<double>(near_edges_[e].size());
+        if ((found.point - p).norm() < sharp_reach * size) points_.push_back({p, e, 1.0, size, true});
+    };
+    for (const GuideSurface::Edge& edge : surface.edges) {
+        if (!(edge.cosine < sharp_cosine)) continue;
+        const Vec3& a = surface.points[edge.vertices[0]];
+        const Vec3& b = surface.points[edge.vertices[1]];
+        for (const double share : {0.1, 0.5, 0.9}) add(a + share * (b - a));
+    }
+    share_weights(first, edges_.size(), sharp_weight);
+}
+
+void ShapeKeeper::share_weights(std::size_t first, std::size_t homes, double weight) {
+    std::vector<std::size_t> count(homes, 0);
+    for (std::size_t i = first; i < points_.size(); ++i) ++count[points_[i].home];
+    for (std::size_t i = first; i < points_.size(); ++i)
+        points_[i].weight = weight / static_cast<double>(count[points_[i].home]);
+}
+
+template <class Positions>
+ShapeKeeper::Foot ShapeKeeper::foot(const Point& point, const Positions& at) const {
+    Foot best;
+    best.squared = std::numeric_limits<double>::infinity();
+    const auto take = [&](const Nearest& nearest, VertexId a, VertexId b, VertexId c, std::uint32_t home) {
+        if (nearest.squared >= best.squared) return;
+        best.squared = nearest.squared;
+        best.vertices = {a, b, c};
+        best.shares = nearest.shares;
+        best.home = home;
+    };
+    if (point.sharp) {
+        for (const std::uint32_t e : near_edges_[point.home]) {
+            const auto& ends = edges_.vertices[e];
+            take(nearest_on_segment(point.place, at(ends[0]), at(ends[1])), ends[0], ends[1], ends[1], e);
+        }
+    } else {
+        for (const std::uint32_t q : near_quads_[point.home]) {
+            const auto& v = boundary_.vertices[q];
+            const Vec3 a = at(v[0]);
+            const Vec3 c = at(v[2]);
+            take(nearest_on_triangle(point.place, a, at(v[1]), c), v[0], v[1], v[2], q);
+            take(nearest_on_triangle(point.place, a, c, at(v[3])), v[0], v[2], v[3], q);
+        }
+    }
+    best.off = point.place;
+    for (std::size_t i = 0; i < 3; ++i) best.off -= best.shares[i] * at(best.vertices[i]);
+    return best;
+}
+
+std::array<double, 2> ShapeKeeper::cost(const Point& point, double squared) const {
+    const double scale = 1.0 / (point.size * point.size);
+    if (point.sharp) {
+        const double inverse = scale / (turn * turn);
+        const double root = std::sqrt(1.0 + inverse * squared);
+        return {strength_ * point.weight * (root - 1.0), strength_ * point.weight * 0.5 * inverse / root};
+    }
+    double value = point.weight * scale * squared;
+    double slope = point.weight * scale;
+    const double over = squared / (limit_ * limit_) - hinge_start;
+    if (over > 0.0) {
+        value += hinge * over * over;
+        slope += 2.0 * hinge * over / (limit_ * limit_);
+    }
+    return {strength_ * value, strength_ * slope};
+}
+
+void ShapeKeeper::follow(std::span<const Vec3> positions) {
+    const auto at = [&](VertexId v) -> const Vec3& { return positions[v.index()]; };
+    parallel_for(
+        points_.size(),
+        [&](std::size_t i) {
+            for (int step = 0; step < most_steps; ++step) {
+                const std::uint32_t home = foot(points_[i], at).home;
+                if (home == points_[i].home) break;
+                points_[i].home = home;
+            }
+        },
+        grain);
+    points_at_ = rows_by_counting<std::uint32_t>(positions.size(), [&](const auto& emit) {
+        for (std::uint32_t i = 0; i < points_.size(); ++i) {
+            const std::uint32_t home = points_[i].home;
+            if (points_[i].sharp) {
+                for (const VertexId v : edges_.vertices[home]) emit(v.index(), i);
+            } else {
+                for (const VertexId v : boundary_.vertices[home]) emit(v.index(), i);
+            }
+        }
+    });
+}
+
+double ShapeKeeper::evaluate(std::span<const Vec3> positions, std::vector<Vec3>* gradient) const {
+    if (strength_ == 0.0) return 0.0;
+    const auto at = [&](VertexId v) -> const Vec3& { return positions[v.index()]; };
+    parallel_for(
+        points_.size(),
+        [&](std::size_t i) {
+            feet_[i] = foot(points_[i], at);
+            costs_[i] = cost(points_[i], feet_[i].squared);
+        },
+        grain);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+        sum += costs_[i][0];
+        if (gradient == nullptr) continue;
+        for (std::size_t k = 0; k < 3; ++k)
+            (*gradient)[feet_[i].vertices[k].index()] -=
+                2.0 * costs_[i][1] * feet_[i].shares[k] * feet_[i].off;
+    }
+    return sum;
+}
+
+double ShapeKeeper::around(VertexId v, const Vec3& p, std::span<const Vec3> positions) const {
+    if (strength_ == 0.0) return 0.0;
+    const auto at = [&](VertexId w) -> const Vec3& { return w == v ? p : positions[w.index()]; };
+    double sum = 0.0;
+    for (const std::uint32_t i : points_at_[v.index()]) {
+        const Foot found = foot(points_[i], at);
+        sum += cost(points_[i], found.squared)[0];
+    }
+    return sum;
+}
+
+}  // namespace hex::improving
