@@ -1,6 +1,7 @@
 #include "segment/label_energy.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace hex {
 namespace {
@@ -67,6 +68,7 @@ LabelScore LabelEnergy::evaluate_prepared(const std::vector<int>& labels) {
     for (int node = 0; node < nodes_; ++node) parent_[at(node)] = node;
     sides_.assign(at(nodes_), 0);
     boundary_edges_.clear();
+    order_.clear();
     score.charts = nodes_;
     for (const int e : outer_edges_) add_boundary_edge(e, score);
     for (const int e : inner_edges_) {
@@ -89,6 +91,8 @@ LabelScore LabelEnergy::evaluate_prepared(const std::vector<int>& labels) {
     for (const int e : boundary_edges_) {
         if (!visited_[at(e)]) walk(surface_->edges[at(e)].vertices[0], e, labels, score);
     }
+    order_.conflicts();
+    score.disorder = order_.disorder();
     for (const int e : boundary_edges_) {
         visited_[at(e)] = 0;
         for (const int v : surface_->edges[at(e)].vertices) {
@@ -130,6 +134,7 @@ void LabelEnergy::walk(int vertex, int edge, const std::vector<int>& labels, Lab
     const bool opposite = opposite_labels(left, right);
     if (opposite) ++score.opposite;
     const int axis = opposite ? 0 : 3 - left / 2 - right / 2;
+    const int start = vertex;
     int sense = 0;
     while (true) {
         visited_[at(edge)] = 1;
@@ -142,12 +147,28 @@ void LabelEnergy::walk(int vertex, int edge, const std::vector<int>& labels, Lab
             sense = now;
         }
         vertex = next;
-        if (degree_[at(vertex)] >= 3) return;
+        if (degree_[at(vertex)] >= 3) break;
         const auto& both = edges_at_[at(vertex)];
         const int other = both[0] == edge ? both[1] : both[0];
         if (visited_[at(other)]) return;
         edge = other;
     }
+    if (opposite || degree_[at(start)] != 3 || degree_[at(vertex)] != 3) return;
+    const double rise = surface_->points[at(vertex)][axis] - surface_->points[at(start)][axis];
+    const int before = chart_across(axis, rise > 0.0 ? start : vertex, labels);
+    const int after = chart_across(axis, rise > 0.0 ? vertex : start, labels);
+    if (before >= 0 && after >= 0 && (before == after || std::abs(rise) > surface_->flat))
+        order_.add({before, after, -1});
+}
+
+int LabelEnergy::chart_across(int axis, int vertex, const std::vector<int>& labels) {
+    // Two of the three boundaries touch all three charts.
+    for (const int e : edges_at_[at(vertex)]) {
+        for (const int t : surface_->edges[at(e)].triangles) {
+            if (labels[at(t)] / 2 == axis) return find(node_[at(t)]);
+        }
+    }
+    return -1;
 }
 
 }  // namespace hex

@@ -3,6 +3,7 @@
 /// being that of a polycube.
 #pragma once
 
+#include "segment/chart_order.h"
 #include "segment/label_surface.h"
 
 #include <vector>
@@ -18,6 +19,7 @@ struct LabelScore {
     int few_sided = 0;        ///< charts with fewer than four boundaries
     int crossings = 0;        ///< corners where more than three boundaries meet
     int turns = 0;            ///< places where a boundary turns back along its axis
+    int disorder = 0;         ///< charts that can have no coordinates (chart_order.h)
     int charts = 0;
 
     bool valid() const { return opposite == 0 && few_sided == 0; }
@@ -25,7 +27,8 @@ struct LabelScore {
     double invalidity() const { return opposite + 0.5 * missing_sides; }
     /// What it costs, valid or not.
     double price() const {
-        return infidelity + 0.005 * cut + 0.02 * crossings + 0.0005 * turns + 0.0005 * charts;
+        return infidelity + 0.005 * cut + 0.02 * crossings + 0.01 * disorder + 0.0005 * turns +
+               0.0005 * charts;
     }
     double energy(double weight_of_validity) const { return price() + weight_of_validity * invalidity(); }
 };
@@ -59,6 +62,10 @@ class LabelEnergy {
     int nodes_ = 0;
     double outer_infidelity_ = 0.0;
 
+    /// The chart across the axis that meets a corner of three boundaries; -1 where there is none.
+    int chart_across(int axis, int vertex, const std::vector<int>& labels);
+
+    ChartOrder order_;
     std::vector<int> parent_;  ///< of nodes, in a union-find forest: charts
     std::vector<int> sides_;   ///< at the roots
     std::vector<int> stack_;

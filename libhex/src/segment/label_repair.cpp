@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <set>
 
 namespace hex {
 namespace {
@@ -19,10 +20,22 @@ std::size_t at(int index) {
 
 /// A place to mend: a chart, a boundary or a vertex, by what is wrong there.
 struct Place {
-    enum class Kind { few_sided_chart, opposite_boundary, crossing, spare_chart, turning_boundary };
+    enum class Kind {
+        few_sided_chart,
+        opposite_boundary,
+        crossing,
+        contrary_boundary,
+        turning_boundary,
+        spare_chart
+    };
     Kind kind = Kind::few_sided_chart;
     int index = 0;
     std::size_t size = 0;  ///< triangles or edges; small ones are mended first
+
+    bool on_boundary() const {
+        return kind == Kind::opposite_boundary || kind == Kind::contrary_boundary ||
+               kind == Kind::turning_boundary;
+    }
 };
 
 const char* reason_of(Place::Kind kind) {
@@ -35,6 +48,8 @@ const char* reason_of(Place::Kind kind) {
             return "corner-valence";
         case Place::Kind::spare_chart:
             return "small-chart";
+        case Place::Kind::contrary_boundary:
+            return "charts-without-order";
         case Place::Kind::turning_boundary:
             return "boundary-turns";
     }
@@ -60,9 +75,45 @@ std::vector<Place> invalid_places(const LabelCharts& charts) {
     return places;
 }
 
+/// The chart across the axis at a corner of three charts; -1 when there is none, or more.
+int chart_across(const LabelCharts& charts, int axis, int vertex) {
+    const auto corner = std::lower_bound(charts.corners.begin(), charts.corners.end(), vertex,
+                                         [](const LabelCorner& c, int v) { return c.vertex < v; });
+    if (corner == charts.corners.end() || corner->vertex != vertex || corner->valence != 3) return -1;
+    int found = -1;
+    for (const int c : corner->charts) {
+        if (charts.charts[at(c)].label / 2 == axis) found = c;
+    }
+    return found;
+}
+
+/// The boundaries that contradict each other about the order of charts.
+std::vector<Place> contrary_places(const LabelSurface& surface, const LabelCharts& charts) {
+    ChartOrder order;
+    for (std::size_t b = 0; b < charts.boundaries.size(); ++b) {
+        const LabelBoundary& boundary = charts.boundaries[b];
+        const int axis = boundary_axis(charts.charts[at(boundary.charts[0])].label,
+                                       charts.charts[at(boundary.charts[1])].label);
+        if (axis < 0) continue;
+        int first = boundary.vertices.front();
+        int last = boundary.vertices.back();
+        if (surface.points[at(last)][axis] < surface.points[at(first)][axis]) std::swap(first, last);
+        const int before = chart_across(charts, axis, first);
+        const int after = chart_across(charts, axis, last);
+        const double rise = surface.points[at(last)][axis] - surface.points[at(first)][axis];
+        if (before >= 0 && after >= 0 && (before == after || rise > surface.flat))
+            order.add({before, after, static_cast<int>(b)});
+    }
+    std::vector<Place> places;
+    for (const ChartOrder::Arc& arc : order.conflicts())
+        places.push_back({Place::Kind::contrary_boundary, arc.boundary,
+                          charts.boundaries[at(arc.boundary)].triangles.size()});
+    return places;
+}
+
 /// What would be nicer, when all is valid.
 std::vector<Place> untidy_places(const LabelSurface& surface, const LabelCharts& charts, bool small_charts) {
-    std::vector<Place> places;
+    std::vector<Place> places = contrary_places(surface, charts);
     for (const LabelCorner& corner : charts.corners) {
         if (corner.valence > 3) places.push_back({Place::Kind::crossing, corner.vertex, 0});
     }
@@ -207,7 +258,7 @@ class Repair {
         }
         std::vector<int> beside;
         std::vector<int> boundaries = {place.index};
-        if (place.kind == Place::Kind::opposite_boundary) {
+        if (place.kind == Place::Kind::opposite_boundary || place.kind == Place::Kind::contrary_boundary) {
             const auto& pair = charts.boundaries[at(place.index)].charts;
             beside = {pair[0], pair[1]};
         } else {
@@ -244,7 +295,7 @@ class Repair {
 
     static std::vector<int> charts_at(const LabelCharts& charts, const Place& place) {
         if (place.kind == Place::Kind::crossing) return {};
-        if (place.kind == Place::Kind::opposite_boundary || place.kind == Place::Kind::turning_boundary) {
+        if (place.on_boundary()) {
             const auto& pair = charts.boundaries[at(place.index)].charts;
             return {pair[0], pair[1]};
         }
@@ -270,6 +321,26 @@ class Repair {
         return std::pair{std::move(changes[best->index]), best->score};
     }
 
+    static bool tidying(const Place& place) {
+        return place.kind != Place::Kind::few_sided_chart && place.kind != Place::Kind::opposite_boundary;
+    }
+
+    /// Tells a place in later passes, as long as it does not change.
+    static std::vector<int> signature(const LabelCharts& charts, const Place& place) {
+        std::vector<int> key = {static_cast<int>(place.kind)};
+        if (place.kind == Place::Kind::crossing) {
+            key.push_back(place.index);
+        } else if (place.on_boundary()) {
+            const auto& vertices = charts.boundaries[at(place.index)].vertices;
+            key.insert(key.end(), vertices.begin(), vertices.end());
+        } else {
+            const LabelChart& chart = charts.charts[at(place.index)];
+            key.insert(key.end(), {chart.label, chart.triangles.front(), static_cast<int>(place.size),
+                                   static_cast<int>(chart.boundaries.size())});
+        }
+        return key;
+    }
+
     /// One pass over the places, the greatest gains first, those that cost faith later. True when something
     /// was mended.
     template <class Find>
@@ -284,7 +355,11 @@ class Repair {
         const LabelCharts charts = find_charts(mesh_, {result_.labels});
         std::vector<Job> jobs;
         for (const Place& place : find(charts)) {
-            if (auto best = best_change(charts, place))
+            const std::vector<int> key = signature(charts, place);
+            if (hopeless_.contains(key)) continue;
+            auto best = best_change(charts, place);
+            if (!best && tidying(place)) hopeless_.insert(key);
+            if (best)
                 jobs.push_back({place, std::move(best->first),
                                 energy_of(result_.score) - energy_of(best->second),
                                 best->second.infidelity - result_.score.infidelity});
@@ -389,7 +464,8 @@ class Repair {
     tbb::enumerable_thread_specific<Trial> energies_;
     std::size_t version_ = 1;
     std::size_t batch_ = 0;
-    double weight_ = 1.0;  ///< of validity
+    std::set<std::vector<int>> hopeless_;  ///< signatures of places that nothing made tidier
+    double weight_ = 1.0;                  ///< of validity
     LabelRepair result_;
 };
 
