@@ -376,7 +376,8 @@ class Builder {
 
     void collect_sides() {
         std::map<int, int> class_of_corner;  // by surface vertex
-        for (const ChartSide& side : graph_.sides) {
+        for (std::size_t s = 0; s < graph_.sides.size(); ++s) {
+            const ChartSide& side = graph_.sides[s];
             auto& nodes = result_.side_nodes.emplace_back();
             const int from = plane(side.ends[0]);
             const int to = plane(side.ends[1]);
@@ -400,11 +401,25 @@ class Builder {
                     }
                 }
                 boundary_classes_.insert(here);
+                // A corner is known by its vertex, other places by their side.
+                const int place = k == from ? side.chain.front()
+                                  : k == to ? side.chain.back()
+                                            : -1 - static_cast<int>(s);
+                if (!claim(here, place, side)) return;
                 const auto found = vertex_of_class_.find(here);
                 if (found != vertex_of_class_.end()) nodes.push_back({k, found->second});
                 if (k == to) break;
             }
         }
+    }
+
+    /// Different places of the surface must not meet in one vertex of the grid. Conflict when they do.
+    bool claim(int corner_class, int place, const ChartSide& side) {
+        const auto [entry, fresh] = claims_.try_emplace(corner_class, Claim{place, side.charts});
+        if (entry->second.place == place) return true;
+        for (const int one : entry->second.charts)
+            for (const int other : side.charts) conflict(one, other);
+        return false;
     }
 
     /// Lines of a chart: unit edges between two of its faces with a wall behind them.
@@ -433,6 +448,8 @@ class Builder {
                         open = false;
                     } else if (vertex >= 0) {
                         segment.crossings.push_back({k + 1, vertex});
+                        const auto [entry, fresh] = crossing_chart_.emplace(vertex, chart);
+                        if (entry->second != chart) conflict(entry->second, chart);
                     }
                 }
                 if (open) fail_line(chart);
@@ -486,7 +503,13 @@ class Builder {
     };
     std::vector<char> walls_;
     std::vector<OpenWall> open_walls_;
+    struct Claim {
+        int place = 0;
+        std::array<int, 2> charts = {-1, -1};
+    };
+    std::map<int, Claim> claims_;
     std::map<int, int> vertex_of_class_;
+    std::map<int, int> crossing_chart_;  ///< by block vertex
     std::set<int> boundary_classes_;
     int last_class_ = -1;
 };

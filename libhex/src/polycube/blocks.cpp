@@ -131,21 +131,27 @@ class BlockMaker {
         return violations;
     }
 
-    /// Where charts lie over each other, the charts around take the order they have in space.
+    /// Where charts lie over each other or touch, they take the order that they have in space, and where that
+    /// is not enough the charts around them do.
     bool part_conflicts(PlaneOrders& orders) const {
         std::set<int> near;
         for (const ChartConflict& conflict : complex_.conflicts) {
             near.insert(conflict.chart);
             near.insert(conflict.other);
         }
+        if (part(near, orders)) return true;
         const std::set<int> centre = near;
         for (const ChartSide& side : graph_.sides) {
             if (centre.contains(side.charts[0])) near.insert(side.charts[1]);
             if (centre.contains(side.charts[1])) near.insert(side.charts[0]);
         }
+        return part(near, orders);
+    }
+
+    bool part(const std::set<int>& charts, PlaneOrders& orders) const {
         bool any = false;
-        for (const int low : near) {
-            for (const int high : near) {
+        for (const int low : charts) {
+            for (const int high : charts) {
                 if (axis_of(graph_.charts[at(low)].label) != axis_of(graph_.charts[at(high)].label)) continue;
                 const double gap = level_[at(high)] - level_[at(low)];
                 if (gap <= 0.0 || coordinates_[at(low)] < coordinates_[at(high)]) continue;

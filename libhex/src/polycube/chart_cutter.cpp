@@ -339,27 +339,30 @@ class Cutter {
         Vec2 crossing = on_line((1.0 - share) * uv_[at(p.idx())] + share * uv_[at(q.idx())]);
         for (int c = 0; c < 2; ++c)
             if (uv_[at(p.idx())][c] == uv_[at(q.idx())][c]) crossing[c] = uv_[at(p.idx())][c];
-        if (share < snap_share && move_onto_line(p, crossing, a, b)) return mesh_.find_halfedge(here, p);
-        if (share > 1.0 - snap_share && move_onto_line(q, crossing, a, b))
-            return mesh_.find_halfedge(here, q);
         const Edge e = mesh_.edge_handle(edge);
-        if (on_rim(edge) && line_of_edge_[at(e.idx())] < 0) return std::nullopt;
-        const int crossed = line_of_edge_[at(e.idx())];
-        if (crossed >= 0 && crossed >= static_cast<int>(lines_.size())) return std::nullopt;
+        const int across = line_of_edge_[at(e.idx())];
+        if (share < snap_share && move_onto_line(p, across, crossing, a, b))
+            return mesh_.find_halfedge(here, p);
+        if (share > 1.0 - snap_share && move_onto_line(q, across, crossing, a, b))
+            return mesh_.find_halfedge(here, q);
+        if (on_rim(edge) && across < 0) return std::nullopt;
+        if (across >= static_cast<int>(lines_.size())) return std::nullopt;
         const double bounded = std::clamp(share, 0.02, 0.98);
         const Vertex v = split(e, (1.0 - bounded) * point(p) + bounded * point(q), crossing);
-        if (crossed >= 0) add_to_line(v, crossed);
+        if (across >= 0) add_to_line(v, across);
         return mesh_.find_halfedge(here, v);
     }
 
     /// Moves a vertex in the plane onto the line, unless it is needed where it is or a triangle would flip.
-    bool move_onto_line(Vertex v, const Vec2& crossing, const Vec2& a, const Vec2& b) {
+    /// One on another line may only slide along that line, when the edge to cross is part of it (`across`).
+    bool move_onto_line(Vertex v, int across, const Vec2& crossing, const Vec2& a, const Vec2& b) {
         if (fixed_[at(v.idx())] || node_at_[at(v.idx())] >= 0) return false;
-        // A vertex of a line across may only slide along that line, to the crossing.
         bool on_other = false;
-        for (const auto h : mesh_.voh_range(v))
-            on_other = on_other || line_of_edge_[at(mesh_.edge_handle(h).idx())] >= 0;
-        if (on_other && !(a.x() == b.x() || a.y() == b.y())) return false;
+        for (const auto h : mesh_.voh_range(v)) {
+            const int line = line_of_edge_[at(mesh_.edge_handle(h).idx())];
+            on_other = on_other || line >= 0;
+            if (line >= 0 && line != across) return false;
+        }
         const Vec2 before = uv_[at(v.idx())];
         const Vec2 way = (b - a).normalized();
         Vec2 place = a + way * way.dot(before - a);
@@ -383,15 +386,25 @@ class Cutter {
 
     // --- one line alone ------------------------------------------------------------------------------------
 
-    /// The line to cut first, removed from the region: the one that divides the rim most evenly; in a region
-    /// that is no disk one that joins two loops, if there is one.
+    /// The line to cut first, removed from the region. While the rim has several loops, one that joins two of
+    /// them: whichever way it goes around the others, what is left is the same. Else the one that divides the
+    /// rim most evenly; not one that ends on a cut whose two sides both are rim, if there is a choice,
+    /// because its vertex does not tell from which side it starts.
     CutLine take_line(Region& region, const std::vector<std::vector<Halfedge>>& loops) const {
-        std::map<int, std::pair<int, double>> place;  // loop and length along it, by node
+        struct Place {
+            int loop = 0;
+            double length = 0.0;
+            int times = 0;
+        };
+        std::map<int, Place> place;  // by node
         std::vector<double> total;
         for (std::size_t l = 0; l < loops.size(); ++l) {
             double sum = 0.0;
             for (const auto h : loops[l]) {
-                if (node_of(h) >= 0) place[node_of(h)] = {static_cast<int>(l), sum};
+                if (node_of(h) >= 0) {
+                    Place& p = place[node_of(h)];
+                    p = {static_cast<int>(l), sum, p.times + 1};
+                }
                 sum += length(h);
             }
             total.push_back(sum);
@@ -402,21 +415,22 @@ class Cutter {
             const auto one = place.find(region.lines[i].nodes.front());
             const auto two = place.find(region.lines[i].nodes.back());
             if (one == place.end() || two == place.end()) continue;
+            const bool joins = one->second.loop != two->second.loop;
+            if (loops.size() > 1 && !joins) continue;
             double score = 0.0;
-            if (one->second.first != two->second.first) {
-                score = 2.0;
-            } else {
-                const double whole = total[at(one->second.first)];
-                const double arc = std::abs(one->second.second - two->second.second);
+            if (!joins) {
+                const double whole = total[at(one->second.loop)];
+                const double arc = std::abs(one->second.length - two->second.length);
                 score = whole > 0.0 ? std::min(arc, whole - arc) / whole : 0.0;
             }
+            if (one->second.times == 1 && two->second.times == 1) score += 1.0;
             if (score > best_score) {
                 best = i;
                 best_score = score;
             }
         }
         if (best_score < 0.0) fail("no block line of a chart can be cut next");
-        const CutLine line = region.lines[best];
+        CutLine line = region.lines[best];
         region.lines.erase(region.lines.begin() + static_cast<std::ptrdiff_t>(best));
         return line;
     }
