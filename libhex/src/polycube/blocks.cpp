@@ -3,6 +3,7 @@
 #include "polycube/chart_cutter.h"
 #include "polycube/chart_graph.h"
 #include "polycube/integer_polycube.h"
+#include "polycube/plane_placement.h"
 
 #include <hex/base/error.h>
 #include <hex/base/parallel.h>
@@ -45,6 +46,7 @@ class BlockMaker {
         Diagnostics violations = solve();
         if (!violations.empty()) return give_up(std::move(violations));
         step("block lines", 0.4);
+        places_ = place_planes(graph_, complex_, level_, unit_);
         insert_side_nodes();
         cut_charts();
         step("blocks", 0.9);
@@ -166,8 +168,6 @@ class BlockMaker {
         return any;
     }
 
-    double place(int axis, int plane) const { return unit_ * complex_.planes[at(axis)][at(plane)]; }
-
     // --- surface -------------------------------------------------------------------------------------------
 
     /// Makes the block vertices on the sides vertices of the mesh: at the length of the chain that their
@@ -180,30 +180,47 @@ class BlockMaker {
             const auto& nodes = complex_.side_nodes[s];
             vertex_of_node_[at(nodes.front().vertex)] = side.chain.front();
             vertex_of_node_[at(nodes.back().vertex)] = side.chain.back();
-            const double from = place(side.axis, nodes.front().plane);
-            const double to = place(side.axis, nodes.back().plane);
+            const double from = places_[at(nodes.front().vertex)][side.axis];
+            const double to = places_[at(nodes.back().vertex)][side.axis];
             std::size_t last = 0;  // index in the chain of the node before
             for (std::size_t n = 1; n + 1 < nodes.size(); ++n) {
-                const double share = (place(side.axis, nodes[n].plane) - from) / (to - from);
-                last = insert_node(side.chain, share, last, nodes.size() - 2 - n);
+                const double share = (places_[at(nodes[n].vertex)][side.axis] - from) / (to - from);
+                last = insert_node(side, share, last);
                 vertex_of_node_[at(nodes[n].vertex)] = side.chain[last];
             }
         }
     }
 
-    /// Returns the index in the chain of a vertex near `share` of its length, after `last` and with room for
-    /// `more` others behind it.
-    std::size_t insert_node(Chain& chain, double share, std::size_t last, std::size_t more) {
-        std::vector<double> lengths = {0.0};
-        for (std::size_t i = 1; i < chain.size(); ++i)
-            lengths.push_back(lengths.back() +
-                              (point_of(work_, chain[i]) - point_of(work_, chain[i - 1])).norm());
-        const double wanted = std::max(share * lengths.back(), lengths[last]);
+    /// How far along a side each vertex of its chain is, from 0 to 1: by halves the length so far and the way
+    /// made in the side's direction, so that planes stay flat where the side is oblique and nothing bunches
+    /// up where it is level.
+    std::vector<double> progress_along(const ChartSide& side) const {
+        std::vector<double> length = {0.0};
+        std::vector<double> rise = {0.0};
+        for (std::size_t i = 1; i < side.chain.size(); ++i) {
+            const Vec3 edge = point_of(work_, side.chain[i]) - point_of(work_, side.chain[i - 1]);
+            length.push_back(length.back() + edge.norm());
+            rise.push_back(rise.back() + std::max(0.0, side.direction * edge[side.axis]));
+        }
+        std::vector<double> progress;
+        for (std::size_t i = 0; i < length.size(); ++i) {
+            const double l = length.back() > 0.0
+                                 ? length[i] / length.back()
+                                 : static_cast<double>(i) / static_cast<double>(length.size() - 1);
+            progress.push_back(rise.back() > 0.0 ? 0.5 * (l + rise[i] / rise.back()) : l);
+        }
+        return progress;
+    }
+
+    /// Returns the index in the chain of a vertex near `share` of the way, after `last`.
+    std::size_t insert_node(ChartSide& side, double share, std::size_t last) {
+        Chain& chain = side.chain;
+        const std::vector<double> progress = progress_along(side);
+        const double wanted = std::max(share, progress[last]);
         std::size_t i = last;
-        while (i + 2 < chain.size() && lengths[i + 1] < wanted) ++i;
-        const double span = lengths[i + 1] - lengths[i];
-        const double t = span > 0.0 ? std::clamp((wanted - lengths[i]) / span, 0.0, 1.0) : 0.5;
-        (void)more;
+        while (i + 2 < chain.size() && progress[i + 1] < wanted) ++i;
+        const double span = progress[i + 1] - progress[i];
+        const double t = span > 0.0 ? std::clamp((wanted - progress[i]) / span, 0.0, 1.0) : 0.5;
         if (t < 0.25 && i > last) return i;
         if (t > 0.75 && i + 2 < chain.size()) return i + 1;
         const double inner = std::clamp(t, 0.25, 0.75);
@@ -289,8 +306,8 @@ class BlockMaker {
         const int label = graph_.charts[at(chart)].label;
         const int u = (axis_of(label) + 1) % 3;
         const int v = (axis_of(label) + 2) % 3;
-        const auto& position = complex_.positions[at(block_vertex)];
-        const Vec2 p(place(u, position[at(u)]), place(v, position[at(v)]));
+        const Vec3& place = places_[at(block_vertex)];
+        const Vec2 p(place[u], place[v]);
         return sign_of(label) > 0 ? p : Vec2(p.y(), p.x());
     }
 
@@ -393,6 +410,7 @@ class BlockMaker {
     std::vector<double> level_;
     std::vector<int> coordinates_;
     BlockComplex complex_;
+    std::vector<Vec3> places_;         ///< of block vertices in a polycube with real coordinates
     std::vector<int> vertex_of_node_;  ///< surface vertex of each block vertex, or -1
     std::vector<ChartPiece> pieces_;
     BlocksResult result_;
