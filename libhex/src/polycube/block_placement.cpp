@@ -32,6 +32,10 @@ double worst_corner(const HexMesh& blocks, std::span<const CellId> cells) {
 
 }  // namespace
 
+double corner_scaled_jacobian(const HexMesh& blocks, CellId c, std::size_t k) {
+    return corner_determinant(blocks, c, k, true);
+}
+
 BlockQuality block_quality(const HexMesh& blocks) {
     BlockQuality quality;
     quality.min_scaled_jacobian = 1.0;

@@ -14,6 +14,9 @@ struct BlockQuality {
     std::vector<std::int64_t> inverted_blocks;
 };
 
+/// Scaled Jacobian of a block at its corner k.
+double corner_scaled_jacobian(const HexMesh& blocks, CellId c, std::size_t k);
+
 BlockQuality block_quality(const HexMesh& blocks);
 
 /// Inner vertices at the mean of their neighbours, then moved one by one to where the worst corner of the

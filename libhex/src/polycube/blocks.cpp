@@ -2,6 +2,7 @@
 #include "polycube/block_placement.h"
 #include "polycube/chart_cutter.h"
 #include "polycube/chart_graph.h"
+#include "polycube/corner_sliding.h"
 #include "polycube/integer_polycube.h"
 #include "polycube/plane_placement.h"
 
@@ -314,45 +315,41 @@ class BlockMaker {
     // --- result --------------------------------------------------------------------------------------------
 
     void assemble() {
-        PolygonSoup soup;
-        for (const auto v : work_.vertices()) soup.points.push_back(to_eigen(work_.point(v)));
+        PatchedBlocks model;
+        for (const auto v : work_.vertices()) model.points.push_back(to_eigen(work_.point(v)));
         int patches = 0;
         for (ChartPiece& piece : pieces_) {
             for (std::size_t i = piece.vertices.size(); i < piece.result.points.size(); ++i) {
-                piece.vertices.push_back(static_cast<int>(soup.points.size()));
-                soup.points.push_back(piece.result.points[i]);
+                piece.vertices.push_back(static_cast<int>(model.points.size()));
+                model.points.push_back(piece.result.points[i]);
             }
-            int parts = 0;
             for (std::size_t t = 0; t < piece.result.triangles.size(); ++t) {
-                std::array<std::uint32_t, 3> triangle{};
+                auto& triangle = model.triangles.emplace_back();
                 for (std::size_t k = 0; k < 3; ++k)
-                    triangle[k] =
-                        static_cast<std::uint32_t>(piece.vertices[at(piece.result.triangles[t][k])]);
-                soup.add_polygon(triangle, patches + piece.result.part[t] + 1);
-                parts = std::max(parts, piece.result.part[t] + 1);
+                    triangle[k] = piece.vertices[at(piece.result.triangles[t][k])];
+                model.patch.push_back(patches + piece.result.part[t]);
             }
-            patches += parts;
+            patches += *std::max_element(piece.result.part.begin(), piece.result.part.end()) + 1;
             for (std::size_t n = 0; n < piece.block_nodes.size(); ++n)
                 vertex_of_node_[at(piece.block_nodes[n])] = piece.vertices[at(piece.result.node_vertex[n])];
         }
         report().patches = at(patches);
-        result_.patches = make_triangle_mesh(soup);
+        model.vertex_of_node = vertex_of_node_;
+        place_blocks(model);
+        if (block_quality(model.blocks).min_scaled_jacobian < least_scaled_jacobian)
+            report().slides = slide_corners(model, least_scaled_jacobian, 12, context_);
+        vertex_of_node_ = model.vertex_of_node;
 
-        std::vector<Vec3> positions;
-        std::vector<char> free;
-        for (std::size_t n = 0; n < complex_.positions.size(); ++n) {
-            const int v = vertex_of_node_[n];
-            free.push_back(v < 0);
-            positions.push_back(v < 0 ? Vec3::Zero().eval() : soup.points[at(v)]);
+        PolygonSoup soup;
+        soup.points = std::move(model.points);
+        for (std::size_t t = 0; t < model.triangles.size(); ++t) {
+            std::array<std::uint32_t, 3> triangle{};
+            for (std::size_t k = 0; k < 3; ++k)
+                triangle[k] = static_cast<std::uint32_t>(model.triangles[t][k]);
+            soup.add_polygon(triangle, model.patch[t] + 1);
         }
-        start_inner(free, positions);
-        std::vector<HexCell> cells;
-        for (const auto& block : complex_.blocks) {
-            HexCell& cell = cells.emplace_back();
-            for (std::size_t k = 0; k < 8; ++k) cell[k] = VertexId(at(block[k]));
-        }
-        result_.blocks = HexMesh(std::move(positions), std::move(cells));
-        place_inner_vertices(result_.blocks, free);
+        result_.patches = make_triangle_mesh(soup);
+        result_.blocks = std::move(model.blocks);
         report().blocks = result_.blocks.cell_count();
         const BlockQuality quality = block_quality(result_.blocks);
         report().min_scaled_jacobian = quality.min_scaled_jacobian;
@@ -362,6 +359,23 @@ class BlockMaker {
                 {Severity::warning, "inverted-block",
                  std::to_string(quality.inverted_blocks.size()) + " blocks have an inverted or flat corner",
                  "block", quality.inverted_blocks});
+    }
+
+    void place_blocks(PatchedBlocks& model) const {
+        std::vector<Vec3> positions;
+        std::vector<char> free;
+        for (const int v : model.vertex_of_node) {
+            free.push_back(v < 0);
+            positions.push_back(v < 0 ? Vec3::Zero().eval() : model.points[at(v)]);
+        }
+        start_inner(free, positions);
+        std::vector<HexCell> cells;
+        for (const auto& block : complex_.blocks) {
+            HexCell& cell = cells.emplace_back();
+            for (std::size_t k = 0; k < 8; ++k) cell[k] = VertexId(at(block[k]));
+        }
+        model.blocks = HexMesh(std::move(positions), std::move(cells));
+        place_inner_vertices(model.blocks, free);
     }
 
     /// A start for the inner vertices: the middle of the others.
@@ -402,6 +416,9 @@ class BlockMaker {
     [[noreturn]] static void fail(const std::string& what) {
         throw Error(ErrorKind::no_result, what, {}, "mend the labels there, or try another unit");
     }
+
+    /// Block corners below this scaled Jacobian make their vertices slide.
+    static constexpr double least_scaled_jacobian = 0.2;
 
     const Context& context_;
     TriangleMesh work_;

@@ -63,6 +63,26 @@ class Cutter {
         return collect();
     }
 
+    CutResult cut_star() {
+        const Region region = std::move(open_.back());
+        open_.pop_back();
+        enter(region);
+        const auto loops = rim_loops();
+        mark_rim(loops);
+        split_bridges();
+        const int centre = nodes_[at(region.lines.front().nodes.back())].vertex;
+        if (!is_disk(loops) || !is_simply_connected() || fixed_[at(centre)])
+            fail("the patches around a block vertex form no disk");
+        round_rim(loops.front());
+        if (!flatten_region(mesh_, faces_of_current(), fixed_, uv_))
+            fail("the patches around a block vertex cannot be flattened onto a disk");
+        for (const CutLine& line : region.lines) {
+            if (!cut_straight(line)) fail("a block line cannot be cut anew");
+            lines_.push_back(line);
+        }
+        return collect();
+    }
+
   private:
     [[noreturn]] static void fail(const char* what) { throw Error(ErrorKind::no_result, what); }
 
@@ -435,7 +455,23 @@ class Cutter {
         return line;
     }
 
-    std::vector<Vertex> cut_in_disk(const CutLine& line, const std::vector<Halfedge>& rim) {
+    bool is_simply_connected() const {
+        std::set<int> vertices;
+        std::set<int> edges;
+        int faces = 0;
+        for (const auto f : mesh_.faces()) {
+            if (!in_region(f)) continue;
+            ++faces;
+            for (const auto h : mesh_.fh_range(f)) {
+                vertices.insert(mesh_.to_vertex_handle(h).idx());
+                edges.insert(mesh_.edge_handle(h).idx());
+            }
+        }
+        return static_cast<int>(vertices.size()) - static_cast<int>(edges.size()) + faces == 1;
+    }
+
+    /// The rim of a disk on a circle, by length.
+    void round_rim(const std::vector<Halfedge>& rim) {
         double total = 0.0;
         for (const auto h : rim) total += length(h);
         double sum = 0.0;
@@ -445,6 +481,10 @@ class Cutter {
             uv_[at(mesh_.from_vertex_handle(rim[i]).idx())] = {std::cos(angle), std::sin(angle)};
             sum += length(rim[i]);
         }
+    }
+
+    std::vector<Vertex> cut_in_disk(const CutLine& line, const std::vector<Halfedge>& rim) {
+        round_rim(rim);
         if (!flatten_region(mesh_, faces_of_current(), fixed_, uv_))
             fail("a chart of the polycube cannot be flattened onto a disk");
         const auto path = cut_straight(line);
@@ -659,6 +699,10 @@ class Cutter {
 };
 
 }  // namespace
+
+CutResult cut_star(const CutProblem& problem) {
+    return Cutter(problem).cut_star();
+}
 
 CutResult cut_chart(const CutProblem& problem) {
     return Cutter(problem).cut();

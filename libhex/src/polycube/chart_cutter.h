@@ -46,4 +46,9 @@ struct CutResult {
 /// Throws Error{no_result} when a line cannot be cut.
 CutResult cut_chart(const CutProblem& problem);
 
+/// Cuts a disk from an inner vertex to nodes on its rim, straight in a map onto a round disk. Every line has
+/// two nodes: one on the rim and, the same for all, the inner one. Throws Error{no_result} when the triangles
+/// form no disk or a line cannot be cut.
+CutResult cut_star(const CutProblem& problem);
+
 }  // namespace hex

@@ -64,6 +64,7 @@ Json report_of(const hex::BlocksReport& report) {
             {"blocks", report.blocks},
             {"patches", report.patches},
             {"lines_cut_alone", report.cut_alone},
+            {"slides", report.slides},
             {"unit", report.unit},
             {"min_scaled_jacobian", report.min_scaled_jacobian},
             {"inverted_corners", report.inverted_corners},

@@ -31,6 +31,7 @@ struct BlocksReport {
     std::size_t blocks = 0;
     std::size_t patches = 0;
     std::size_t cut_alone = 0;  ///< block lines that needed a map of their own (chart_cutter.h)
+    std::size_t slides = 0;     ///< moves of block vertices on the surface to mend inverted blocks
     double unit = 0.0;
     double min_scaled_jacobian = 0.0;  ///< of the blocks, at their corners
     std::size_t inverted_corners = 0;  ///< of the blocks, determinant not above zero
