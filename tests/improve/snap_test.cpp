@@ -31,6 +31,14 @@ HexMesh cells_for(const hex::TriangleMesh& surface, std::size_t count = 1200) {
     return hex::voxel_blocks(surface, options).cells;
 }
 
+double hexahedron_volume(const HexMesh& mesh, hex::CellId c) {
+    const auto p = mesh.corner_positions(c);
+    return ((p[6] - p[0])
+                .dot((p[1] - p[0]).cross(p[2] - p[5]) + (p[4] - p[0]).cross(p[5] - p[7]) +
+                     (p[3] - p[0]).cross(p[7] - p[2]))) /
+           6.0;
+}
+
 TEST(Snap, ABallBecomesRound) {
     const hex::TriangleMesh ball = hex::make_triangle_mesh(hex::test::ball(16));
     const auto result = hex::improve(cells_for(ball), snap_to(ball));
@@ -39,6 +47,25 @@ TEST(Snap, ABallBecomesRound) {
     for (const VertexId v : hex::boundary_quads(result.mesh).boundary_vertices)
         farthest = std::max(farthest, std::abs(result.mesh.position(v).norm() - 1.0));
     EXPECT_LT(farthest, 0.01);  // what the triangles cut off
+}
+
+/// Edges and corners along the axes are met, whichever way the surface is oriented.
+TEST(Snap, ABoxKeepsItsEdges) {
+    for (const bool inside_out : {false, true}) {
+        hex::PolygonSoup soup = hex::test::box_surface(1.0, 1.3, 0.7, 3);
+        if (inside_out) {
+            for (std::size_t f = 0; f < soup.size(); ++f)
+                std::swap(soup.corners[soup.offsets[f]], soup.corners[soup.offsets[f] + 1]);
+        }
+        const hex::TriangleMesh box = hex::make_triangle_mesh(soup);
+        HexMesh cells = cells_for(box);
+        for (const VertexId v : cells.vertices()) cells.set_position(v, 1.03 * cells.position(v));
+        const auto result = hex::improve(cells, snap_to(box));
+        EXPECT_GT(result.report.after.min, 0.4);
+        double volume = 0.0;
+        for (const hex::CellId c : result.mesh.cells()) volume += hexahedron_volume(result.mesh, c);
+        EXPECT_NEAR(volume, 1.0 * 1.3 * 0.7, 0.002);
+    }
 }
 
 TEST(Snap, NothingIsInvertedOnTheWay) {
@@ -62,13 +89,8 @@ TEST(Snap, SidesOfAThinPlateStayApart) {
     const auto result = hex::improve(cells_for(plate), snap_to(plate));
     EXPECT_EQ(result.report.after.inverted, 0U);
     double volume = 0.0;
-    for (const hex::CellId c : result.mesh.cells()) {
-        const auto p = result.mesh.corner_positions(c);
-        volume += (p[6] - p[0])
-                      .dot((p[1] - p[0]).cross(p[2] - p[5]) + (p[4] - p[0]).cross(p[5] - p[7]) +
-                           (p[3] - p[0]).cross(p[7] - p[2]));
-    }
-    EXPECT_NEAR(volume / 6.0, 2.0 * 2.0 * 0.05, 0.06);
+    for (const hex::CellId c : result.mesh.cells()) volume += hexahedron_volume(result.mesh, c);
+    EXPECT_NEAR(volume, 2.0 * 2.0 * 0.05, 0.03);
 }
 
 TEST(Snap, SameBytesForAnyNumberOfThreads) {

@@ -108,6 +108,18 @@ TEST(Voxel, NestedShellsNeedNoOrientation) {
     }
 }
 
+/// Two balls through each other are two bodies, and so is one as small as a grain.
+TEST(Voxel, BodiesThatMeetAreMeshedEachByItself) {
+    PolygonSoup soup = hex::test::ball(8);
+    append(soup, hex::test::ball(8), 1.0, Vec3(0.9, 0, 0));
+    append(soup, hex::test::ball(4), 1e-3, Vec3(0, 3, 0));
+    const auto result = hex::voxel_blocks(hex::make_triangle_mesh(soup));
+    EXPECT_EQ(result.report.bodies, 3U);
+    EXPECT_EQ(result.report.surfaces, 3U);
+    EXPECT_EQ(boundary_euler(result.cells), 6);
+    EXPECT_NEAR(volume(result.cells), 2.0 * 4.0 / 3.0 * std::numbers::pi, 0.4);
+}
+
 /// However it is turned, a thin plate is one piece without holes, and a thin gap stays open.
 TEST(Voxel, ThinPlatesInAnyPosition) {
     for (const double angle : {0.1, 0.5, 0.9}) {
@@ -138,15 +150,15 @@ TEST(Voxel, FollowsThinParts) {
 
 TEST(Voxel, NamesThePlaceThatNoGridResolves) {
     PolygonSoup soup = hex::test::ball(6);
-    append(soup, hex::test::ball(2), 1e-3, Vec3(2.5, 0, 0));
+    append(soup, hex::test::ball(2), 1e-3, Vec3(0.25, 0, 0), true);
     hex::VoxelOptions options;
     options.most_cells = 8000;
     try {
         (void)hex::voxel_blocks(hex::make_triangle_mesh(soup), options);
-        FAIL() << "a ball of a thousandth of the size was met";
+        FAIL() << "a void of a thousandth of the size was met";
     } catch (const hex::Error& error) {
         EXPECT_EQ(error.kind(), hex::ErrorKind::no_result);
-        EXPECT_NE(error.where().find("(2.5, 0, 0)"), std::string::npos) << error.what();
+        EXPECT_NE(error.where().find("(0.25, "), std::string::npos) << error.what();
         EXPECT_NE(std::string(error.what()).find("thinner"), std::string::npos) << error.what();
     }
 }

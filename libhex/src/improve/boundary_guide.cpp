@@ -209,6 +209,7 @@ BoundaryGuide::BoundaryGuide(const HexMesh& mesh, const EdgeTable& edges, const 
     std::uint32_t count = 0;
     const std::vector<std::uint32_t> piece = components.numbers(count);
     std::vector<std::uint32_t> vote(boundary.size(), none);
+    std::vector<char> facing(boundary.size(), 0);
     parallel_for(
         boundary.size(),
         [&](std::size_t q) {
@@ -218,12 +219,19 @@ BoundaryGuide::BoundaryGuide(const HexMesh& mesh, const EdgeTable& edges, const 
             const Vec3 area = (mesh.position(quad[2]) - mesh.position(quad[0]))
                                   .cross(mesh.position(quad[3]) - mesh.position(quad[1]));
             const std::uint32_t t = whole.closest(centre, 0).item;
-            if (parts_->surface.normals[t].dot(area) > 0.0) vote[q] = region_of[t];
+            vote[q] = region_of[t];
+            facing[q] = parts_->surface.normals[t].dot(area) > 0.0;
         },
         64);
     std::vector<std::map<std::uint32_t, std::size_t>> votes(count);
+    std::vector<std::map<std::uint32_t, std::size_t>> backwards(count);
     for (std::size_t q = 0; q < boundary.size(); ++q)
-        if (vote[q] != none) ++votes[piece[q]][vote[q]];
+        if (facing[q]) ++votes[piece[q]][vote[q]];
+    // Shells of the surface may be oriented against the boundary: then nothing faces the same way.
+    for (std::size_t q = 0; q < boundary.size(); ++q)
+        if (votes[piece[q]].empty()) ++backwards[piece[q]][vote[q]];
+    for (std::size_t p = 0; p < count; ++p)
+        if (votes[p].empty()) votes[p].swap(backwards[p]);
     std::vector<std::uint32_t> region(count, 0);
     for (std::size_t p = 0; p < count; ++p) {
         std::size_t most = 0;

@@ -58,10 +58,9 @@ class Snapper {
     Snapper(const HexMesh& before, const HexMesh& layered, const ImproveOptions& options,
             const Context& context)
         : context_(context),
-          options_(options),
-          surface_(*options.surface),
           edges_(edge_table(layered)),
           boundary_(boundary_quads(layered)),
+          surface_(*options.surface, layered, boundary_),
           boxes_(wished_boxes(before, layered)),
           mesh_(layered, edges_, nullptr, no_boundary(layered)),
           targets_(layered.vertex_count()),
@@ -96,7 +95,7 @@ class Snapper {
         std::snprintf(text, sizeof text,
                       "boundary vertices are at most %.3g %% of the diagonal off the surface; the layer has "
                       "%zu elements",
-                      100.0 * largest / diagonal(), mesh_.mesh().cell_count() - input.cell_count());
+                      100.0 * largest / surface_.diagonal(), mesh_.mesh().cell_count() - input.cell_count());
         result.report.diagnostics.push_back({Severity::note, "surface-distance", text, "", {}});
         return result;
     }
@@ -107,29 +106,8 @@ class Snapper {
         free_.on_boundary.assign(mesh.vertex_count(), 0);
         return free_;
     }
-    double diagonal() const {
-        BoundingBox box;
-        for (const auto v : surface_mesh().vertices()) box.add(to_eigen(surface_mesh().point(v)));
-        return box.diagonal();
-    }
-    const TriangleMesh& surface_mesh() const { return *options_.surface; }
-
     /// Targets for the boundary as it is now.
-    void aim() {
-        const std::vector<Vec3> normals = improving::boundary_normals(mesh_.mesh(), boundary_);
-        parallel_for(
-            boundary_.boundary_vertices.size(),
-            [&](std::size_t i) {
-                const VertexId v = boundary_.boundary_vertices[i];
-                const Vec3& p = mesh_.mesh().position(v);
-                SnapTarget& target = targets_[v.index()];
-                target = surface_.closest(p, normals[v.index()]);
-                const Vec3 off = p - target.point;
-                const double distance = off.norm();
-                if (distance * distance * stiffness_[v.index()] > 1e-8) target.axis = off / distance;
-            },
-            64);
-    }
+    void aim() { surface_.aim(mesh_.mesh(), targets_); }
 
     /// Minimises shape and pull together; infinite, and so never accepted, where a cell is inverted.
     void pull(double strength) {
@@ -146,7 +124,9 @@ class Snapper {
                 const SnapTarget& target = targets_[cell[k].index()];
                 const Vec3 off = corners[k] - target.point;
                 const Vec3 along = off.dot(target.axis) * target.axis;
-                const Vec3 held = target.along ? Vec3(off - along) : along;
+                Vec3 held = off;
+                if (target.kind == SnapTarget::Kind::smooth) held = along;
+                if (target.kind == SnapTarget::Kind::edge) held = off - along;
                 const Vec3 force = (1.0 - tangential_share) * held + tangential_share * off;
                 value += stiff * off.dot(force);
                 if (gradient != nullptr) (*gradient)[k] += 2.0 * stiff * force;
@@ -206,10 +186,9 @@ class Snapper {
     }
 
     const Context& context_;
-    const ImproveOptions& options_;
-    SnapTargets surface_;
     EdgeTable edges_;
     BoundaryQuads boundary_;
+    SnapTargets surface_;
     BoundaryQuads free_;
     std::vector<Vec3> boxes_;
     improving::SlidingMesh mesh_;

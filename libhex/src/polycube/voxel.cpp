@@ -1,20 +1,14 @@
-#include "polycube/voxel_cells.h"
+#include "polycube/voxel_target.h"
 
 #include <hex/base/error.h>
 #include <hex/base/parallel.h>
 #include <hex/polycube/voxel.h>
 #include <hex/surface/polygon_soup.h>
 
-#include <CGAL/AABB_traits.h>
-#include <CGAL/AABB_tree.h>
-#include <CGAL/AABB_triangle_primitive.h>
-#include <CGAL/Simple_cartesian.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
-#include <map>
 #include <optional>
 
 namespace hex {
@@ -24,10 +18,12 @@ using voxels::Cell;
 using voxels::CellSet;
 using voxels::Grid;
 using voxels::samples_per_cell;
-using Kernel = CGAL::Simple_cartesian<double>;
+using voxels::Target;
 
 /// Cells are no larger than this share of the diagonal unless the caller says so.
 constexpr double largest_cell = 1.0 / 30.0;
+/// And no larger than this share of that of their own body.
+constexpr double largest_of_body = 1.0 / 6.0;
 /// From try to try cells get smaller by this factor.
 constexpr double shrink = 0.88;
 /// A cell is taken when it has at least so many samples inside. The second and third are tried when the
@@ -45,142 +41,6 @@ std::string text_of(const Vec3& p) {
     char text[96];
     std::snprintf(text, sizeof text, "(%.4g, %.4g, %.4g)", p.x(), p.y(), p.z());
     return text;
-}
-
-/// What the cells must reproduce.
-class Target {
-  public:
-    explicit Target(const TriangleMesh& surface) {
-        component_.assign(surface.n_faces(), -1);
-        std::vector<TriangleMesh::FaceHandle> stack;
-        for (const auto start : surface.faces()) {
-            if (component_[index(start)] >= 0) continue;
-            const int number = static_cast<int>(components_.size());
-            components_.emplace_back();
-            component_[index(start)] = number;
-            stack.push_back(start);
-            while (!stack.empty()) {
-                const auto f = stack.back();
-                stack.pop_back();
-                for (const auto g : surface.ff_range(f)) {
-                    if (component_[index(g)] >= 0) continue;
-                    component_[index(g)] = number;
-                    stack.push_back(g);
-                }
-            }
-        }
-        std::vector<int> at_vertex(surface.n_vertices(), -1);
-        for (const auto f : surface.faces()) {
-            Component& own = components_[static_cast<std::size_t>(component_[index(f)])];
-            own.euler += 1;
-            for (const auto v : surface.fv_range(f)) {
-                at_vertex[static_cast<std::size_t>(v.idx())] = component_[index(f)];
-                own.box.add(to_eigen(surface.point(v)));
-            }
-        }
-        for (const int c : at_vertex)
-            if (c >= 0) components_[static_cast<std::size_t>(c)].euler += 1;
-        for (const auto e : surface.edges()) {
-            const auto h = surface.halfedge_handle(e, 0);
-            const auto f = surface.face_handle(h).is_valid()
-                               ? surface.face_handle(h)
-                               : surface.face_handle(surface.opposite_halfedge_handle(h));
-            components_[static_cast<std::size_t>(component_[index(f)])].euler -= 1;
-        }
-        if (components_.size() < 2) return;
-        for (const auto f : surface.faces()) {
-            std::array<Kernel::Point_3, 3> p;
-            std::size_t i = 0;
-            for (const auto v : surface.fv_range(f)) {
-                const auto& q = surface.point(v);
-                p[i++] = Kernel::Point_3(q[0], q[1], q[2]);
-            }
-            triangles_.emplace_back(p[0], p[1], p[2]);
-        }
-        tree_.insert(triangles_.cbegin(), triangles_.cend());
-        tree_.build();
-    }
-    Target(const Target&) = delete;
-    Target& operator=(const Target&) = delete;
-
-    std::size_t size() const { return components_.size(); }
-    int euler(std::size_t component) const { return components_[component].euler; }
-    const BoundingBox& box(std::size_t component) const { return components_[component].box; }
-    /// The component nearest to a point.
-    std::size_t nearest(const Vec3& p) const {
-        if (components_.size() < 2) return 0;
-        const auto found = tree_.closest_point_and_primitive(Kernel::Point_3(p.x(), p.y(), p.z()));
-        return static_cast<std::size_t>(
-            component_[static_cast<std::size_t>(found.second - triangles_.cbegin())]);
-    }
-
-  private:
-    struct Component {
-        int euler = 0;
-        BoundingBox box;
-    };
-    using Triangles = std::vector<Kernel::Triangle_3>;
-    using Primitive = CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>;
-    static std::size_t index(TriangleMesh::FaceHandle f) { return static_cast<std::size_t>(f.idx()); }
-
-    std::vector<int> component_;  // of each triangle
-    std::vector<Component> components_;
-    Triangles triangles_;
-    CGAL::AABB_tree<CGAL::AABB_traits<Kernel, Primitive>> tree_;
-};
-
-/// Which component of the surface each component of the boundary stands for.
-struct Correspondence {
-    std::vector<int> component;  // of each boundary component; -1: none
-    std::vector<int> boundary;   // of each surface component; -1: none
-};
-
-/// Every component of the boundary asks some of its faces for the nearest component of the surface; the one
-/// with most faces gets it.
-Correspondence correspond(const CellSet& cells, const voxels::Pieces& pieces, const Target& target) {
-    constexpr std::size_t most_votes = 500;
-    const Grid& grid = cells.grid();
-    std::vector<std::vector<std::size_t>> votes(pieces.boundaries.size(),
-                                                std::vector<std::size_t>(target.size(), 0));
-    if (target.size() > 1) {
-        std::map<std::pair<int, int>, std::size_t> number;
-        for (std::size_t b = 0; b < pieces.boundaries.size(); ++b)
-            number[{pieces.boundaries[b].inner, pieces.boundaries[b].outer}] = b;
-        std::vector<std::size_t> seen(pieces.boundaries.size(), 0);
-        for (std::size_t i = 0; i < grid.cell_count(); ++i) {
-            if (!cells.taken(i)) continue;
-            const Cell c = grid.cell(i);
-            for (std::size_t axis = 0; axis < 3; ++axis) {
-                for (const int up : {0, 1}) {
-                    Cell n = c;
-                    n[axis] += 2 * up - 1;
-                    const std::size_t other = grid.index(n);
-                    if (cells.taken(other)) continue;
-                    const std::size_t b = number.at({pieces.piece[i], pieces.piece[other]});
-                    const std::size_t stride = 1 + pieces.boundaries[b].faces / most_votes;
-                    if (seen[b]++ % stride != 0) continue;
-                    Vec3 middle = 0.5 * (grid.node(c) + grid.node({c[0] + 1, c[1] + 1, c[2] + 1}));
-                    middle[static_cast<Eigen::Index>(axis)] =
-                        grid.planes[axis][static_cast<std::size_t>(c[axis] + up)];
-                    ++votes[b][target.nearest(middle)];
-                }
-            }
-        }
-    }
-    Correspondence result{std::vector<int>(pieces.boundaries.size(), -1),
-                          std::vector<int>(target.size(), -1)};
-    for (std::size_t b = 0; b < pieces.boundaries.size(); ++b) {
-        const auto s =
-            static_cast<std::size_t>(std::max_element(votes[b].begin(), votes[b].end()) - votes[b].begin());
-        const int present = result.boundary[s];
-        if (present >= 0 &&
-            pieces.boundaries[static_cast<std::size_t>(present)].faces >= pieces.boundaries[b].faces)
-            continue;
-        if (present >= 0) result.component[static_cast<std::size_t>(present)] = -1;
-        result.boundary[s] = static_cast<int>(b);
-        result.component[b] = static_cast<int>(s);
-    }
-    return result;
 }
 
 /// Points of the surface not farther apart than `spacing`.
@@ -254,7 +114,7 @@ void drop_specks(Try& attempt, const Target& target) {
     CellSet& cells = *attempt.cells;
     for (;;) {
         const voxels::Pieces pieces = cells.pieces();
-        const Correspondence found = correspond(cells, pieces, target);
+        const voxels::Correspondence found = voxels::correspond(cells, pieces, target);
         std::vector<int> degree(static_cast<std::size_t>(pieces.count), 0);
         for (const auto& b : pieces.boundaries) {
             ++degree[static_cast<std::size_t>(b.inner)];
@@ -328,7 +188,7 @@ std::string critical_place(const Try& attempt) {
 
 void compare(Try& attempt, const Target& target) {
     const voxels::Pieces pieces = attempt.cells->pieces();
-    const Correspondence found = correspond(*attempt.cells, pieces, target);
+    const voxels::Correspondence found = voxels::correspond(*attempt.cells, pieces, target);
     for (std::size_t s = 0; s < target.size(); ++s) {
         const int b = found.boundary[s];
         if (b < 0) {
@@ -437,15 +297,9 @@ double volume_of(const TriangleMesh& surface, double diagonal) {
     return volume;
 }
 
-VoxelResult build(const TriangleMesh& surface, const VoxelOptions& options, const Context& context) {
-    const BoundingBox box = bounding_box(surface);
-    const double diagonal = box.diagonal();
-    if (!((box.upper - box.lower).minCoeff() > 1e-9 * diagonal))
-        throw Error(ErrorKind::bad_input, "the surface is flat", {}, "give one that encloses a volume");
+VoxelResult build_body(const TriangleMesh& surface, double size, const VoxelOptions& options,
+                       const Context& context) {
     const Target target(surface);
-    double size = options.cell_size > 0.0 ? options.cell_size
-                                          : size_for(options.target_cells, volume_of(surface, diagonal),
-                                                     area_of(surface), diagonal);
     std::optional<VoxelResult> best;
     std::size_t tries = 0;
     for (;; size *= shrink) {
@@ -500,6 +354,60 @@ VoxelResult build(const TriangleMesh& surface, const VoxelOptions& options, cons
                         place.empty() ? std::string() : "near " + place,
                         "allow more cells, or thicken what is thinner than a cell there");
     }
+}
+
+/// The cells of another body, which have nothing in common with those that are there.
+void append(VoxelResult& all, const VoxelResult& body) {
+    std::vector<Vec3> positions(all.cells.positions().begin(), all.cells.positions().end());
+    std::vector<HexCell> cells(all.cells.cell_array().begin(), all.cells.cell_array().end());
+    for (HexCell cell : body.cells.cell_array()) {
+        for (VertexId& v : cell) v = VertexId(v.index() + positions.size());
+        cells.push_back(cell);
+    }
+    positions.insert(positions.end(), body.cells.positions().begin(), body.cells.positions().end());
+    all.cells = HexMesh(std::move(positions), std::move(cells));
+    VoxelReport& report = all.report;
+    if (body.report.cells > report.cells) {
+        report.grid = body.report.grid;
+        report.planes = body.report.planes;
+    }
+    report.cell_size = std::min(report.cell_size, body.report.cell_size);
+    report.cells += body.report.cells;
+    report.tries += body.report.tries;
+    report.repairs += body.report.repairs;
+    report.specks += body.report.specks;
+    report.grown += body.report.grown;
+    report.carved += body.report.carved;
+    report.distance = std::max(report.distance, body.report.distance);
+    report.bodies += body.report.bodies;
+    report.surfaces += body.report.surfaces;
+    report.euler_characteristic += body.report.euler_characteristic;
+}
+
+VoxelResult build(const TriangleMesh& surface, const VoxelOptions& options, const Context& context) {
+    const std::vector<TriangleMesh> bodies = voxels::bodies_of(surface);
+    double volume = 0.0;
+    for (const TriangleMesh& body : bodies) {
+        const BoundingBox box = bounding_box(body);
+        if (!((box.upper - box.lower).minCoeff() > 1e-9 * box.diagonal()))
+            throw Error(ErrorKind::bad_input, "a component of the surface is flat",
+                        "near " + text_of(0.5 * (box.lower + box.upper)), "give one that encloses a volume");
+        volume += volume_of(body, box.diagonal());
+    }
+    const double size = options.cell_size > 0.0 ? options.cell_size
+                                                : size_for(options.target_cells, volume, area_of(surface),
+                                                           bounding_box(surface).diagonal());
+    std::optional<VoxelResult> all;
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+        context.progress("voxel", static_cast<double>(b) / static_cast<double>(bodies.size()));
+        const double largest = largest_of_body * bounding_box(bodies[b]).diagonal();
+        VoxelResult one = build_body(bodies[b], std::min(size, largest), options, context);
+        if (all)
+            append(*all, one);
+        else
+            all.emplace(std::move(one));
+    }
+    return std::move(*all);
 }
 
 }  // namespace

@@ -119,6 +119,19 @@ Grid make_grid(const TriangleMesh& surface, double size) {
     return grid;
 }
 
+std::optional<double> crossing(const std::array<Vec3, 3>& p, const Vec2& line) {
+    const std::array<Vec2, 3> q = {Vec2(p[0].y(), p[0].z()), Vec2(p[1].y(), p[1].z()),
+                                   Vec2(p[2].y(), p[2].z())};
+    const int first = side(q[0], q[1], line);
+    if (first == 0 || side(q[1], q[2], line) != first || side(q[2], q[0], line) != first) return {};
+    const auto [low, high] = std::minmax({p[0].x(), p[1].x(), p[2].x()});
+    const Vec3 normal = (p[1] - p[0]).cross(p[2] - p[0]);
+    if (normal.x() == 0.0) return 0.5 * (low + high);
+    const double x =
+        p[0].x() - (normal.y() * (line.x() - p[0].y()) + normal.z() * (line.y() - p[0].z())) / normal.x();
+    return std::clamp(x, low, high);
+}
+
 std::vector<std::uint8_t> samples_inside(const Grid& grid, const TriangleMesh& surface) {
     std::array<std::vector<double>, 3> samples;
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -139,27 +152,16 @@ std::vector<std::uint8_t> samples_inside(const Grid& grid, const TriangleMesh& s
     };
     for (const auto f : surface.faces()) {
         const auto p = corners_of(surface, f);
-        const std::array<Vec2, 3> q = {Vec2(p[0].y(), p[0].z()), Vec2(p[1].y(), p[1].z()),
-                                       Vec2(p[2].y(), p[2].z())};
-        const auto [low_x, high_x] = std::minmax({p[0].x(), p[1].x(), p[2].x()});
-        const auto [low_y, high_y] = std::minmax({q[0].x(), q[1].x(), q[2].x()});
-        const auto [low_z, high_z] = std::minmax({q[0].y(), q[1].y(), q[2].y()});
+        const auto [low_y, high_y] = std::minmax({p[0].y(), p[1].y(), p[2].y()});
+        const auto [low_z, high_z] = std::minmax({p[0].z(), p[1].z(), p[2].z()});
         const auto ys = range(1, low_y, high_y);
         const auto zs = range(2, low_z, high_z);
-        const Vec3 normal = (p[1] - p[0]).cross(p[2] - p[0]);
         for (auto z = zs.first; z < zs.second; ++z) {
             for (auto y = ys.first; y < ys.second; ++y) {
-                const Vec2 at(samples[1][static_cast<std::size_t>(y)],
-                              samples[2][static_cast<std::size_t>(z)]);
-                const int first = side(q[0], q[1], at);
-                if (first == 0 || side(q[1], q[2], at) != first || side(q[2], q[0], at) != first) continue;
-                double x = 0.5 * (low_x + high_x);
-                if (normal.x() != 0.0) {
-                    x = p[0].x() -
-                        (normal.y() * (at.x() - p[0].y()) + normal.z() * (at.y() - p[0].z())) / normal.x();
-                }
-                crossings[static_cast<std::size_t>(y) + columns * static_cast<std::size_t>(z)].push_back(
-                    std::clamp(x, low_x, high_x));
+                const auto x = crossing(p, Vec2(samples[1][static_cast<std::size_t>(y)],
+                                                samples[2][static_cast<std::size_t>(z)]));
+                if (!x) continue;
+                crossings[static_cast<std::size_t>(y) + columns * static_cast<std::size_t>(z)].push_back(*x);
             }
         }
     }

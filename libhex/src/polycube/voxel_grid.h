@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 namespace hex::voxels {
@@ -54,6 +55,11 @@ struct Grid {
 
 /// Cells of about the given size over the bounding box of the surface.
 Grid make_grid(const TriangleMesh& surface, double size);
+
+/// Where the line along x through a point (y, z) meets a triangle, if it does. For a closed surface the
+/// number of meetings is even: a line through an edge or a vertex is moved by infinitely little (exact
+/// predicates).
+std::optional<double> crossing(const std::array<Vec3, 3>& triangle, const Vec2& line);
 
 /// Samples along an axis of each cell.
 inline constexpr int samples_per_axis = 3;

@@ -20,8 +20,8 @@ struct VoxelOptions {
     /// Wished number of hexahedra, counting one more on every boundary face (the layer that `snap` puts
     /// around), > 0. Without a `cell_size` only.
     std::size_t target_cells = 6000;
-    /// Where the topology of the cells is not the surface's, cells get smaller until there are more than
-    /// this many hexahedra, again counting the layer.
+    /// Where the topology of the cells is not the surface's, cells of a body get smaller until it has more
+    /// than this many hexahedra, again counting the layer.
     std::size_t most_cells = 60000;
     /// Where the topology is right, but parts of the surface are farther from the cells than a cell's size,
     /// cells get smaller until there are more than this many hexahedra, counting the layer; then the try with
@@ -42,6 +42,8 @@ struct VoxelReport {
     /// Largest distance of the surface to the boundary of the cells, in units of the surface; 2 `cell_size`
     /// stands for more.
     double distance = 0.0;
+    std::size_t bodies = 1;        ///< with a grid of their own each; the numbers above are sums, `grid` that
+                                   ///< of the body with most cells, sizes and distances extremes
     std::size_t surfaces = 0;      ///< connected components of the boundary: those of the surface
     int euler_characteristic = 0;  ///< of the boundary: that of the surface
 };
@@ -53,7 +55,8 @@ struct VoxelResult {
 
 /// Cells of a grid whose boundary is a 2-manifold with as many components as the surface, each with the
 /// Euler characteristic of its counterpart. The solid is where a ray meets the surface an odd number of
-/// times, so the orientation of shells plays no role.
+/// times, so the orientation of shells plays no role. Each outer shell with the voids right inside it is a
+/// body with a grid of its own; bodies may touch or overlap, as their shells do, and share no vertices.
 ///
 /// Grid planes are put on large flat faces that are perpendicular to an axis, and spaced evenly between them.
 /// A cell is taken when at least half of it is inside (27 samples, found by exact predicates). At every
@@ -64,8 +67,8 @@ struct VoxelResult {
 /// Recognition Letters 15, 1994). If the topology is not that of the surface, the same is tried with
 /// smaller cells.
 ///
-/// Throws Error{usage} for options out of range, Error{bad_input} for a surface without triangles or without
-/// extent along an axis, Error{no_result} naming a place when `most_cells` do not suffice.
+/// Throws Error{usage} for options out of range, Error{bad_input} for a surface without triangles or with a
+/// flat component, Error{no_result} naming a place when `most_cells` do not suffice.
 VoxelResult voxel_blocks(const TriangleMesh& surface, const VoxelOptions& options = {},
                          const Context& context = {});
 
