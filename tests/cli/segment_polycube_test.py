@@ -47,6 +47,18 @@ class Commands(CommandTest):
         for kind in ('k', 'json'):
             self.assertEqual((self.folder / f'1.{kind}').read_bytes(), (self.folder / f'2.{kind}').read_bytes())
 
+    def test_cells_of_a_grid_need_no_labels(self):
+        blob = DATA / 'blob' / 'blob_tri.k'
+        self.run_program('polycube', '-i', blob, '--method', 'voxel', '--blocks', 'cells.vtk', '--json', 'voxel.json')
+        report = json.loads((self.folder / 'voxel.json').read_text())
+        self.assertEqual(report['euler_characteristic'], 2)
+        self.assertEqual(report['surfaces'], 1)
+        self.run_program('improve', 'cells.vtk', '-m', 'snap', '--surface', blob, '-o', 'hex.vtk', '--json', 'snap.json')
+        after = json.loads((self.folder / 'snap.json').read_text())['after']
+        self.assertEqual(after['inverted'], 0)
+        self.assertGreater(after['hexes'], report['cells'])
+        self.run_program('polycube', '-i', blob, '--method', 'voxel', '-o', 'quads.k', code=2)
+
     def test_manual_labels_count_from_0_or_1_and_are_checked(self):
         for base, text in ((0, '0 3\n1 3\n'), (1, '1 4\n2 4\n')):
             (self.folder / 'manual.txt').write_text(text)

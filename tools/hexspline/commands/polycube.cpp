@@ -2,6 +2,7 @@
 ///   hexspline polycube -i part_patches.k -o part_polycube.k
 ///   hexspline polycube -i rod_initial_read.k -o rod_polycube_structure.k -c 1
 ///   hexspline polycube -i part_segment.k --patches part_patches.k --blocks part_blocks.k
+///   hexspline polycube -i part.stl --method voxel --blocks part_cells.vtk
 
 #include "hexspline/command.h"
 #include "hexspline/inputs.h"
@@ -12,6 +13,7 @@
 #include <hex/io/surface_file.h>
 #include <hex/polycube/blocks.h>
 #include <hex/polycube/polycube.h>
+#include <hex/polycube/voxel.h>
 
 namespace cli {
 namespace {
@@ -23,12 +25,15 @@ void describe(CommandLine& line) {
              "write the triangles cut into four-sided patches, made from labels; part id = patch");
     line.add("blocks", value<std::string>(),
              "write the hexahedral blocks of those patches, made from labels");
-    line.add("unit", value<double>("H")->default_value(0.0),
-             "length of one unit of the integer polycube, for --patches and --blocks; 0: from the volume");
+    line.add(
+        "unit", value<double>("H")->default_value(0.0),
+        "length of one unit of the integer polycube, for --patches and --blocks; of voxel the cell size; 0: "
+        "from the volume");
     line.add("corner-files,c", value<int>("0|1")->default_value(0),
              "1 writes NAME_corner.txt, NAME_edge.txt and NAME_face.txt beside the output NAME");
     line.add("method", value<std::string>("NAME")->default_value("patches"),
-             "patches, or a plug-in's (hexspline plugins)");
+             "patches; voxel (--blocks are the cells of a grid, for any closed surface); or a plug-in's "
+             "(hexspline plugins)");
 }
 
 Json report_of(const hex::PolycubeResult& result) {
@@ -129,7 +134,36 @@ int run_from_labels(CommandLine& line) {
     return 0;
 }
 
+int run_voxel(CommandLine& line) {
+    if (!line.given("blocks") || line.given("patches") || line.given("output"))
+        throw hex::Error(hex::ErrorKind::usage, "method voxel makes cells only", {},
+                         "give --blocks, and neither --patches nor -o");
+    hex::VoxelOptions options;
+    options.cell_size = line.get<double>("unit");
+    const hex::TriangleMesh mesh = load_triangles(line, line.input());
+    const hex::VoxelResult result = hex::voxel_blocks(mesh, options, line.context());
+    const hex::VoxelReport& report = result.report;
+    hex::io::write_hex_mesh(line.get<std::string>("blocks"), result.cells);
+    line.info(std::to_string(report.cells) + " cells, " + std::to_string(report.bodies) + " bodies");
+    line.write_report({{"method", "voxel"},
+                       {"grid", report.grid},
+                       {"cell_size", report.cell_size},
+                       {"planes_on_flat_faces", report.planes},
+                       {"cells", report.cells},
+                       {"grids_tried", report.tries},
+                       {"cells_changed_for_a_manifold", report.repairs},
+                       {"specks", report.specks},
+                       {"cells_added_along_thin_parts", report.grown},
+                       {"cells_removed_along_thin_gaps", report.carved},
+                       {"distance", report.distance},
+                       {"bodies", report.bodies},
+                       {"surfaces", report.surfaces},
+                       {"euler_characteristic", report.euler_characteristic}});
+    return 0;
+}
+
 int run(CommandLine& line) {
+    if (line.get<std::string>("method") == "voxel") return run_voxel(line);
     line.require_range("corner-files", line.get<int>("corner-files"), 0, 1);
     const bool from_labels = line.given("patches") || line.given("blocks");
     if (!from_labels && !line.given("output"))
@@ -161,7 +195,8 @@ const RegisterCommand registered(
          "blocks.",
      .sample_runs = {"hexspline polycube -i part_patches.k -o part_polycube.k",
                      "hexspline polycube -i rod_initial_read.k -o rod_polycube_structure.k -c 1",
-                     "hexspline polycube -i part_segment.k --patches part_patches.k --blocks part_blocks.k"},
+                     "hexspline polycube -i part_segment.k --patches part_patches.k --blocks part_blocks.k",
+                     "hexspline polycube -i part.stl --method voxel --blocks part_cells.vtk"},
      .describe = describe,
      .run = run});
 
