@@ -77,6 +77,23 @@ const std::array seeds = {
          "ply\nformat binary_big_endian 1.0\nelement vertex 1\nproperty float x\nproperty uchar y\nproperty "
          "double z\nelement face 1\nproperty list uchar short "
          "vertex_indices\nproperty char pid\nend_header\n\0\0\0\0\0\0\0\0\0\0\0\0\0\3\0\0\0\0\0\0\2"sv},
+    Seed{"abaqus/part.inp",
+         "*HEADING\n** c\n*PART, NAME=a\n*NODE\n5, 0., 0.\n6, 1, 0, 0\n9, 0, 1, 0\n*ELEMENT, TYPE=S3R,\n "
+         "ELSET=\"b "
+         "c\"\n2, 5, 6,\n9\n*ELEMENT, TYPE=B31\n1, 5, 6\n*ELSET, ELSET=d, GENERATE\n1, 9, 1\n*END PART\n"sv},
+    Seed{"gmsh/two.msh",
+         "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$PhysicalNames\n1\n2 7 \"a "
+         "b\"\n$EndPhysicalNames\n$Nodes\n3\n1 0 0 0\n4 1 0 0\n2 0 1 0\n$EndNodes\n$Elements\n2\n1 15 2 0 1 "
+         "1\n2 2 2 "
+         "7 1 1 4 2\n$EndElements\n$NodeData\n1\n$EndNodeData\n"sv},
+    Seed{"mfem/surface.mfem",
+         "MFEM mesh v1.0\n# c\ndimension\n2\nelements\n1\n3 2 0 1 2\nboundary\n1\n1 1 0 1\nvertices\n3\n3\n0 "
+         "0 0\n1 "
+         "0 0\n0 1 0\n"sv},
+    Seed{"open_volume_mesh/properties.ovm",
+         "OVM ASCII\nVertices\n3\n0 0 0\n1 0 0\n0 1 0\nEdges\n3\n0 1\n1 2\n2 0\nFaces\n1\n3 0 2 "
+         "4\nPolyhedra\n0\nVProp "
+         "double \"a\"\n1\n2\n3\nFProp int \"part_id\"\n4\n"sv},
     Seed{
         "medit/skip.mesh",
         "MeshVersionFormatted 1\nDimension\n3\nVertices 3\n0 0 0 0 1 0 0 0 0 1 0 0\nEdges 1 1 2 0\nTriangles\n1 1 2 3 # c\n 4\nEnd\n"sv},
@@ -90,8 +107,9 @@ int main(int count, char** arguments) {
         return 2;
     }
     const std::filesystem::path folder = arguments[1];
-    const std::array<std::string, 8> readers = {"ls_dyna", "legacy_vtk", "vtu", "medit",
-                                                "stl",     "obj",        "off", "ply"};
+    const std::array<std::string, 12> readers = {"ls_dyna", "legacy_vtk", "vtu",  "medit",
+                                                 "mfem",    "abaqus",     "gmsh", "open_volume_mesh",
+                                                 "stl",     "obj",        "off",  "ply"};
     for (std::size_t i = 0; i < readers.size(); ++i) {
         const auto& format = hex::io::formats()[i];
         const std::string extension(format.extensions.front());

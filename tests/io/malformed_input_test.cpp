@@ -40,6 +40,11 @@ const std::string ply =
     "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n";
 const std::string ply_faces = "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
 
+const std::string inp = "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n";
+const std::string msh2 = "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n";
+const std::string mfem = "MFEM mesh v1.0\ndimension\n3\nelements\n1\n";
+const std::string ovm = "OVM ASCII\nVertices\n3\n0 0 0\n1 0 0\n0 1 0\n";
+
 std::string vtu(const std::string& points, const std::string& connectivity,
                 const std::string& counts = "NumberOfPoints=\"3\" NumberOfCells=\"1\"") {
     return "<VTKFile type=\"UnstructuredGrid\">\n<UnstructuredGrid>\n<Piece " + counts +
@@ -153,6 +158,62 @@ const std::vector<Malformed> cases = {
      ":7", "endloop should be here"},
     {"stl_nan_text", ".stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 nan 0\n", ":4", "finite"},
     {"stl_no_facets", ".stl", "solid a\nendsolid a\n", "", "no polygons"},
+    // Abaqus
+    {"inp_no_keyword", ".inp", "hello\n", ":1", "not an Abaqus"},
+    {"inp_short_node", ".inp", "*NODE\n1\n", ":2", "coordinates"},
+    {"inp_nan", ".inp", "*NODE\n1, 0, nan, 0\n", ":2", "'nan'"},
+    {"inp_node_twice", ".inp", "*NODE\n1, 0, 0, 0\n1, 1, 0, 0\n", ":3", "defined twice"},
+    {"inp_negative_id", ".inp", "*NODE\n-1, 0, 0, 0\n", ":2", "not positive"},
+    {"inp_missing_node", ".inp", inp + "*ELEMENT, TYPE=S3\n1, 1, 2, 9\n", ":6", "node 9"},
+    {"inp_too_many_nodes", ".inp", inp + "*ELEMENT, TYPE=S3\n1, 1, 2, 3, 1\n", ":6", "4 nodes"},
+    {"inp_cut_off", ".inp", inp + "*ELEMENT, TYPE=C3D8\n1, 1, 2, 3,\n", ":6", "element 1"},
+    {"inp_element_twice", ".inp", inp + "*ELEMENT, TYPE=S3\n1, 1, 2, 3\n1, 1, 2, 3\n", ":7", "twice"},
+    {"inp_tetrahedra", ".inp", inp + "*ELEMENT, TYPE=C3D4\n", ":5", "'C3D4'", ErrorKind::unsupported},
+    {"inp_quadratic", ".inp", inp + "*ELEMENT, TYPE=C3D20\n", ":5", "'C3D20'", ErrorKind::unsupported},
+    {"inp_include", ".inp", "*INCLUDE, INPUT=a.inp\n", ":1", "INCLUDE", ErrorKind::unsupported},
+    {"inp_huge_set", ".inp",
+     inp + "*ELEMENT, TYPE=S3\n1, 1, 2, 3\n*ELSET, ELSET=a, GENERATE\n1, 9000000000000000000, 0\n", ":8",
+     "not positive"},
+    {"inp_nothing", ".inp", inp, "", "no polygons"},
+    // Gmsh
+    {"msh_header", ".msh", "$Nodes\n", ":1", "$MeshFormat"},
+    {"msh_version", ".msh", "$MeshFormat\n3.0 0 8\n", ":2", "'3.0'", ErrorKind::unsupported},
+    {"msh_binary", ".msh", "$MeshFormat\n2.2 1 8\n", ":2", "binary", ErrorKind::unsupported},
+    {"msh_huge", ".msh", msh2 + "$Nodes\n999999999999\n1 0 0 0\n$EndNodes\n", ":5", "more than the rest"},
+    {"msh_negative_tag", ".msh", msh2 + "$Nodes\n1\n-4 0 0 0\n$EndNodes\n", ":6", "positive"},
+    {"msh_node_twice", ".msh", msh2 + "$Nodes\n2\n2 0 0 0\n2 0 0 1\n$EndNodes\n", ":8", "defined twice"},
+    {"msh_no_nodes", ".msh", msh2, ":3", "no $Nodes"},
+    {"msh_missing_node", ".msh",
+     msh2 + "$Nodes\n1\n1 0 0 0\n$EndNodes\n$Elements\n1\n1 2 0 1 1 7\n$EndElements\n", ":10", "node 7"},
+    {"msh_tetrahedra", ".msh", msh2 + "$Nodes\n1\n1 0 0 0\n$EndNodes\n$Elements\n1\n1 4 0 1 1 1 1\n", ":10",
+     "type 4", ErrorKind::unsupported},
+    {"msh_counts", ".msh",
+     "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 3 1 3\n3 1 0 1\n1\n0 0 0\n$EndNodes\n", ":8",
+     "1 nodes, not 3"},
+    {"msh_section", ".msh", msh2 + "$Strange\n1\n", ":4", "ends within $Strange"},
+    // MFEM
+    {"mfem_header", ".mfem", "mesh\n", ":1", "not a mesh of MFEM"},
+    {"mfem_nurbs", ".mfem", "MFEM NURBS mesh v1.0\n", ":1", "NURBS", ErrorKind::unsupported},
+    {"mfem_index", ".mfem", mfem + "1 2 0 1 3\nvertices\n3\n3\n0 0 0\n1 0 0\n0 1 0\n", ":6", "vertex 3"},
+    {"mfem_prism", ".mfem", mfem + "1 6 0 1 2 3 4 5\n", ":6", "type 6", ErrorKind::unsupported},
+    {"mfem_no_vertices", ".mfem", mfem + "1 2 0 1 2\n", ":6", "no vertices"},
+    {"mfem_plane", ".mfem", mfem + "1 2 0 1 2\nvertices\n3\n2\n0 0\n1 0\n0 1\n", ":9", "2 coordinates",
+     ErrorKind::unsupported},
+    {"mfem_curved", ".mfem", mfem + "1 2 0 1 2\nvertices\n3\nnodes\n", ":9", "curved",
+     ErrorKind::unsupported},
+    // OpenVolumeMesh
+    {"ovm_header", ".ovm", "OFF\n", ":1", "not an OpenVolumeMesh"},
+    {"ovm_binary", ".ovm", "OVM BINARY\n", ":1", "ASCII", ErrorKind::unsupported},
+    {"ovm_edge", ".ovm", ovm + "Edges\n1\n0 3\n", ":9", "point index 3"},
+    {"ovm_open_face", ".ovm", ovm + "Edges\n3\n0 1\n1 2\n2 0\nFaces\n1\n3 0 2 5\nPolyhedra\n0\n", ":14",
+     "follow each other"},
+    {"ovm_triangles_in_cell", ".ovm",
+     ovm + "Edges\n3\n0 1\n1 2\n2 0\nFaces\n1\n3 0 2 4\nPolyhedra\n1\n6 0 0 0 0 0 0\n", ":17",
+     "only hexahedra", ErrorKind::unsupported},
+    {"ovm_tetrahedron", ".ovm", ovm + "Edges\n3\n0 1\n1 2\n2 0\nFaces\n1\n3 0 2 4\nPolyhedra\n1\n4 0 0 0 0\n",
+     ":17", "only hexahedra", ErrorKind::unsupported},
+    {"ovm_property", ".ovm", ovm + "Edges\n0\nFaces\n0\nPolyhedra\n0\nStrange int \"a\"\n", ":13",
+     "'strange'"},
     // OBJ
     {"obj_index", ".obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 4\n", ":4", "vertex 4 does not exist"},
     {"obj_zero", ".obj", "v 0 0 0\nf 0 1 1\n", ":2", "not '0'"},
@@ -290,8 +351,8 @@ std::array<std::size_t, 3> counts(const MeshFile& file) {
 TEST(TruncatedFile, NeverCrashesAndNeverLosesElementsSilently) {
     const TemporaryFolder folder;
     for (const auto& [extension, text] : good_files()) {
-        // OBJ does not say how much there should be.
-        if (extension == ".obj") continue;
+        // OBJ and Abaqus do not say how much there should be.
+        if (extension == ".obj" || extension == ".inp") continue;
         const auto path = folder / std::string("t").append(extension);
         test::write_text(path, text);
         const auto whole = counts(read_mesh_file(path));
@@ -312,7 +373,7 @@ TEST(DamagedFile, NeverCrashes) {
     std::mt19937 random(1);
     for (const auto& [extension, text] : good_files()) {
         const auto path = folder / std::string("d").append(extension);
-        for (int round = 0; round < 100; ++round) {
+        for (int round = 0; round < 200; ++round) {
             std::string damaged = text;
             for (int change = 0; change < 1 + round % 4; ++change) {
                 const std::size_t at = random() % damaged.size();

@@ -124,8 +124,8 @@ TEST_P(SurfaceRoundTrip, KeepsPolygonsOrRefusesThem) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, SurfaceRoundTrip,
-                         testing::Values(".k", ".key", ".vtk", ".vtu", ".mesh", ".stl", ".obj", ".off",
-                                         ".ply"),
+                         testing::Values(".k", ".key", ".vtk", ".vtu", ".mesh", ".mfem", ".inp", ".msh",
+                                         ".ovm", ".stl", ".obj", ".off", ".ply"),
                          [](const auto& instance) { return instance.param.substr(1); });
 
 class HexRoundTrip : public testing::TestWithParam<std::string> {};
@@ -158,8 +158,58 @@ TEST_P(HexRoundTrip, KeepsVerticesThatNoCellUses) {
     EXPECT_EQ(back.cell(CellId(0)), cell);
 }
 
-INSTANTIATE_TEST_SUITE_P(Formats, HexRoundTrip, testing::Values(".k", ".key", ".vtk", ".vtu", ".mesh"),
+INSTANTIATE_TEST_SUITE_P(Formats, HexRoundTrip,
+                         testing::Values(".k", ".key", ".vtk", ".vtu", ".mesh", ".mfem", ".inp", ".msh"),
                          [](const auto& instance) { return instance.param.substr(1); });
+
+TEST(OpenVolumeMesh, KeepsHexahedraThoughTheirCornersMayStartElsewhere) {
+    const TemporaryFolder folder;
+    const HexMesh grid = test::shuffled_grid(3, 2, 4, 5);
+    std::vector<int> parts;
+    for (std::size_t c = 0; c < grid.cell_count(); ++c) parts.push_back(static_cast<int>(c % 3) - 1);
+    const HexMesh mesh({grid.positions().begin(), grid.positions().end()},
+                       {grid.cell_array().begin(), grid.cell_array().end()}, parts);
+    write_hex_mesh(folder / "a.ovm", mesh);
+    const HexMesh back = read_hex_mesh(folder / "a.ovm").mesh;
+    EXPECT_TRUE(same_points(back.positions(), mesh.positions()));
+    ASSERT_EQ(back.cell_count(), mesh.cell_count());
+    for (const CellId c : mesh.cells()) {
+        HexCell a = back.cell(c), b = mesh.cell(c);
+        const Vec3 u = back.position(a[1]) - back.position(a[0]),
+                   v = back.position(a[3]) - back.position(a[0]);
+        EXPECT_GT(u.cross(v).dot(back.position(a[4]) - back.position(a[0])), 0.5) << "not turned inside out";
+        std::sort(a.begin(), a.end());
+        std::sort(b.begin(), b.end());
+        EXPECT_EQ(a, b);
+        EXPECT_EQ(back.part(c), mesh.part(c));
+    }
+}
+
+TEST(PartNames, SurviveWhereTheTableSaysSo) {
+    const TemporaryFolder folder;
+    const PartNames names = {{1, "hub"}, {3, "rim of the wheel"}};
+    Fields fields;
+    fields.part_names = names;
+    for (const FormatInfo& info : formats()) {
+        const auto path = file(folder, "n", info.extensions.front());
+        if (info.writes_hexahedra) {
+            write_hex_mesh(path, awkward_hexahedra(), fields);
+            const HexFile back = read_hex_mesh(path);
+            EXPECT_EQ(back.part_names, info.part_names ? names : PartNames()) << info.name;
+        }
+        if (info.part_names) {
+            write_surface(path, awkward_surface(), names);
+            EXPECT_EQ(read_surface(path).part_names, names) << info.name;
+        }
+    }
+}
+
+TEST(OutputName, MayBeAsLongAsTheFileSystemTakes) {
+    const TemporaryFolder folder;
+    const std::string name = std::string(251, 'n') + ".off";
+    write_surface(folder / name, awkward_surface());
+    EXPECT_EQ(read_surface(folder / name).soup.size(), awkward_surface().size());
+}
 
 TEST(Quadrilaterals, SurviveInEveryFormatForThem) {
     const TemporaryFolder folder;
@@ -167,7 +217,8 @@ TEST(Quadrilaterals, SurviveInEveryFormatForThem) {
     soup.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {2, 0, 0}};
     soup.add_polygon(std::array<std::uint32_t, 4>{0, 1, 2, 3}, 5);
     soup.add_polygon(std::array<std::uint32_t, 3>{1, 4, 2}, 6);
-    for (const std::string extension : {".k", ".vtk", ".vtu", ".obj", ".ply"}) {
+    for (const std::string extension :
+         {".k", ".vtk", ".vtu", ".mfem", ".inp", ".msh", ".ovm", ".obj", ".ply"}) {
         write_surface(file(folder, "q", extension), soup);
         const auto back = read_surface(file(folder, "q", extension)).soup;
         EXPECT_EQ(back.corners, soup.corners) << extension;
@@ -191,7 +242,7 @@ TEST(Dispatch, TakesExtensionsInAnyCase) {
 
 TEST(Dispatch, TellsWhatAFileHolds) {
     const TemporaryFolder folder;
-    for (const std::string extension : {".k", ".vtk", ".vtu", ".mesh"}) {
+    for (const std::string extension : {".k", ".vtk", ".vtu", ".mesh", ".mfem", ".inp", ".msh", ".ovm"}) {
         write_surface(file(folder, "s", extension), awkward_surface());
         write_hex_mesh(file(folder, "h", extension), awkward_hexahedra());
         EXPECT_TRUE(std::holds_alternative<SurfaceFile>(read_mesh_file(file(folder, "s", extension))))
@@ -218,7 +269,7 @@ TEST(Dispatch, FormatTableMatchesWhatReadersAndWritersDo) {
             }
         }
     }
-    EXPECT_EQ(extensions_of(&FormatInfo::writes_hexahedra), ".k .key .vtk .vtu .mesh");
+    EXPECT_EQ(extensions_of(&FormatInfo::writes_hexahedra), ".k .key .vtk .vtu .mesh .mfem .inp .msh .ovm");
 }
 
 TEST(Fields, AreWrittenWhereTheyCanBeAndRefusedElsewhere) {

@@ -15,45 +15,78 @@ namespace {
 struct Format {
     FormatInfo info;
     MeshData (*read)(const InputFile&);
-    void (*write_surface)(OutputFile&, const PolygonSoup&);
+    void (*write_surface)(OutputFile&, const PolygonSoup&, const PartNames&);
     void (*write_hexahedra)(OutputFile&, const HexMesh&, const Fields&);
 };
 
+/// A writer of surfaces for a format without names of parts.
+template <void (*Write)(OutputFile&, const PolygonSoup&)>
+void without_names(OutputFile& out, const PolygonSoup& soup, const PartNames&) {
+    Write(out, soup);
+}
+
 const std::vector<Format>& table() {
     static const std::vector<Format> formats = [] {
-        // name, extensions, reads/writes surfaces, reads/writes hexahedra, part ids, corners, fields, numbers
+        // name, extensions, reads/writes surfaces, reads/writes hexahedra, part ids, names, corners, fields,
+        // numbers
         std::vector<Format> list = {
-            {{"LS-DYNA keyword", {".k", ".key"}, true, true, true, true, true, 4, false, "text, exact"},
+            {{"LS-DYNA keyword",
+              {".k", ".key"},
+              true,
+              true,
+              true,
+              true,
+              true,
+              false,
+              4,
+              false,
+              "text, exact"},
              read_ls_dyna,
-             write_ls_dyna_surface,
+             without_names<write_ls_dyna_surface>,
              write_ls_dyna_hexahedra},
-            {{"VTK legacy", {".vtk"}, true, true, true, true, true, 0, true, "text, exact"},
+            {{"VTK legacy", {".vtk"}, true, true, true, true, true, false, 0, true, "text, exact"},
              read_legacy_vtk,
-             write_legacy_vtk_surface,
+             without_names<write_legacy_vtk_surface>,
              write_legacy_vtk_hexahedra},
-            {{"VTK XML", {".vtu"}, true, true, true, true, true, 0, true, "binary, exact"},
+            {{"VTK XML", {".vtu"}, true, true, true, true, true, false, 0, true, "binary, exact"},
              read_vtu,
-             write_vtu_surface,
+             without_names<write_vtu_surface>,
              write_vtu_hexahedra},
-            {{"Medit", {".mesh"}, true, true, true, true, true, 4, false, "text, exact"},
+            {{"Medit", {".mesh"}, true, true, true, true, true, false, 4, false, "text, exact"},
              read_medit,
-             write_medit_surface,
+             without_names<write_medit_surface>,
              write_medit_hexahedra},
-            {{"STL", {".stl"}, true, true, false, false, false, 3, false, "text, exact"},
+            {{"MFEM", {".mfem"}, true, true, true, true, true, false, 4, false, "text, exact"},
+             read_mfem,
+             without_names<write_mfem_surface>,
+             write_mfem_hexahedra},
+            {{"Abaqus", {".inp"}, true, true, true, true, true, true, 4, false, "text, exact"},
+             read_abaqus,
+             write_abaqus_surface,
+             write_abaqus_hexahedra},
+            {{"Gmsh", {".msh"}, true, true, true, true, true, true, 4, false, "text, exact"},
+             read_gmsh,
+             write_gmsh_surface,
+             write_gmsh_hexahedra},
+            {{"OpenVolumeMesh", {".ovm"}, true, true, true, true, true, false, 0, false, "text, exact"},
+             read_open_volume_mesh,
+             without_names<write_open_volume_mesh_surface>,
+             write_open_volume_mesh_hexahedra},
+            {{"STL", {".stl"}, true, true, false, false, false, false, 3, false, "text, exact"},
              read_stl,
-             write_stl,
+             without_names<write_stl>,
              nullptr},
-            {{"Wavefront OBJ", {".obj"}, true, true, false, false, true, 0, false, "text, exact"},
+            {{"Wavefront OBJ", {".obj"}, true, true, false, false, true, false, 0, false, "text, exact"},
              read_obj,
-             write_obj,
+             without_names<write_obj>,
              nullptr},
-            {{"OFF", {".off"}, true, true, false, false, false, 0, false, "text, exact"},
+            {{"OFF", {".off"}, true, true, false, false, false, false, 0, false, "text, exact"},
              read_off,
-             write_off,
+             without_names<write_off>,
              nullptr},
-            {{"PLY", {".ply"}, true, true, false, false, true, 0, false, "text, exact"},
+            {{"PLY", {".ply"}, true, true, false, false, true, false, 0, false, "text, exact"},
              read_ply,
-             write_ply,
+             without_names<write_ply>,
              nullptr},
         };
         return list;
@@ -116,7 +149,7 @@ SurfaceFile to_surface(MeshData&& data, const std::filesystem::path& path) {
     }
     if (!data.hexahedra.empty())
         data.warn("hexahedra-skipped", plural(data.hexahedra.size(), "hexahedron", "hexahedra") + " skipped");
-    return {std::move(data.surface), located(std::move(data.diagnostics), path)};
+    return {std::move(data.surface), std::move(data.part_names), located(std::move(data.diagnostics), path)};
 }
 
 HexFile to_hexahedra(MeshData&& data, const std::filesystem::path& path) {
@@ -135,6 +168,7 @@ HexFile to_hexahedra(MeshData&& data, const std::filesystem::path& path) {
                                     {},
                                     {}});
     HexFile result;
+    result.part_names = std::move(data.part_names);
     try {
         result.mesh =
             HexMesh(std::move(data.points()), std::move(data.hexahedra), std::move(data.hexahedron_parts));
@@ -213,7 +247,7 @@ MeshFile read_mesh_file(const std::filesystem::path& path) {
     return to_hexahedra(std::move(data), path);
 }
 
-void write_surface(const std::filesystem::path& path, const PolygonSoup& soup) {
+void write_surface(const std::filesystem::path& path, const PolygonSoup& soup, const PartNames& part_names) {
     const Format& format = format_of(path, &FormatInfo::writes_surfaces, "surfaces");
     require_finite(soup.points, path);
     try {
@@ -221,7 +255,7 @@ void write_surface(const std::filesystem::path& path, const PolygonSoup& soup) {
             require_polygon_size(soup, static_cast<std::size_t>(format.info.most_corners),
                                  format.info.name.data());
         OutputFile out(path);
-        format.write_surface(out, soup);
+        format.write_surface(out, soup, part_names);
         out.commit();
     } catch (const Error& error) {
         throw error.located(path.string());
@@ -267,6 +301,22 @@ void append_point(std::string& text, const Vec3& point, char separator) {
     append_number(text, point.y());
     text += separator;
     append_number(text, point.z());
+}
+
+void append_points(OutputFile& out, std::span<const Vec3> points) {
+    for (const Vec3& point : points) {
+        append_point(out.buffer(), point);
+        out.buffer() += '\n';
+        out.flush_if_large();
+    }
+}
+
+void append_polygon(std::string& text, std::span<const std::uint32_t> polygon) {
+    append_number(text, polygon.size());
+    for (const std::uint32_t v : polygon) {
+        text += ' ';
+        append_number(text, v);
+    }
 }
 
 }  // namespace hex::io

@@ -41,6 +41,22 @@ void write_off(OutputFile& out, const PolygonSoup& soup);
 MeshData read_ply(const InputFile& file);
 void write_ply(OutputFile& out, const PolygonSoup& soup);
 
+MeshData read_abaqus(const InputFile& file);
+void write_abaqus_surface(OutputFile& out, const PolygonSoup& soup, const PartNames& names);
+void write_abaqus_hexahedra(OutputFile& out, const HexMesh& mesh, const Fields& fields);
+
+MeshData read_gmsh(const InputFile& file);
+void write_gmsh_surface(OutputFile& out, const PolygonSoup& soup, const PartNames& names);
+void write_gmsh_hexahedra(OutputFile& out, const HexMesh& mesh, const Fields& fields);
+
+MeshData read_mfem(const InputFile& file);
+void write_mfem_surface(OutputFile& out, const PolygonSoup& soup);
+void write_mfem_hexahedra(OutputFile& out, const HexMesh& mesh, const Fields& fields);
+
+MeshData read_open_volume_mesh(const InputFile& file);
+void write_open_volume_mesh_surface(OutputFile& out, const PolygonSoup& soup);
+void write_open_volume_mesh_hexahedra(OutputFile& out, const HexMesh& mesh, const Fields& fields);
+
 /// True when some part id is not 1, so that a file without part ids would lose something.
 bool has_parts(std::span<const int> parts);
 
@@ -49,5 +65,11 @@ void require_polygon_size(const PolygonSoup& soup, std::size_t most, const char*
 
 /// "x y z" with the separator between.
 void append_point(std::string& text, const Vec3& point, char separator = ' ');
+
+/// One line "x y z" a point.
+void append_points(OutputFile& out, std::span<const Vec3> points);
+
+/// "3 a b c": the number of corners, then the corners.
+void append_polygon(std::string& text, std::span<const std::uint32_t> polygon);
 
 }  // namespace hex::io

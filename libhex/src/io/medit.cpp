@@ -139,6 +139,8 @@ void write_vertices(OutputFile& out, std::span<const Vec3> points) {
 }  // namespace
 
 MeshData read_medit(const InputFile& file) {
+    // MFEM uses the same extension.
+    if (file.bytes().substr(file.text_start()).starts_with("MFEM")) return read_mfem(file);
     return MeditReader(file).read();
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <hex/base/diagnostics.h>
+#include <hex/io/part_names.h>
 #include <hex/surface/polygon_soup.h>
 #include <hex/volume/hex_mesh.h>
 
@@ -19,6 +20,8 @@ struct MeshData {
     std::vector<HexCell> hexahedra;
     /// One part id a hexahedron, or empty where the format has none.
     std::vector<int> hexahedron_parts;
+    /// Of the part ids, where the format has names.
+    PartNames part_names;
     Diagnostics diagnostics;
 
     std::vector<Vec3>& points() { return surface.points; }

@@ -57,17 +57,9 @@ void write_off(OutputFile& out, const PolygonSoup& soup) {
     text += ' ';
     append_number(text, soup.size());
     text += " 0\n";
-    for (const Vec3& point : soup.points) {
-        append_point(text, point);
-        text += '\n';
-        out.flush_if_large();
-    }
+    append_points(out, soup.points);
     for (std::size_t f = 0; f < soup.size(); ++f) {
-        append_number(text, soup.polygon(f).size());
-        for (const std::uint32_t v : soup.polygon(f)) {
-            text += ' ';
-            append_number(text, v);
-        }
+        append_polygon(text, soup.polygon(f));
         text += '\n';
         out.flush_if_large();
     }

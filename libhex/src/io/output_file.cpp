@@ -25,7 +25,9 @@ OutputFile::OutputFile(std::filesystem::path path) : path_(std::move(path)) {
     if (std::filesystem::is_symlink(std::filesystem::symlink_status(path_, ignored)) &&
         std::filesystem::exists(status))
         path_ = std::filesystem::canonical(path_);
-    std::string name = path_.string() + ".part-XXXXXX";
+    // A name may have 255 bytes; of a long one only the start goes into the name beside it.
+    const std::string stem = path_.filename().string().substr(0, 200);
+    std::string name = (path_.parent_path() / (stem + ".part-XXXXXX")).string();
     descriptor_ = ::mkostemp(name.data(), O_CLOEXEC);
     if (descriptor_ < 0) fail("cannot be created", errno);
     temporary_ = name;

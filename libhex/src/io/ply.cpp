@@ -298,17 +298,9 @@ void write_ply(OutputFile& out, const PolygonSoup& soup) {
                        : "\nproperty list uint int vertex_indices\n";
     if (parts) text.append("property int ").append(part_field) += '\n';
     text += "end_header\n";
-    for (const Vec3& point : soup.points) {
-        append_point(text, point);
-        text += '\n';
-        out.flush_if_large();
-    }
+    append_points(out, soup.points);
     for (std::size_t f = 0; f < soup.size(); ++f) {
-        append_number(text, soup.polygon(f).size());
-        for (const std::uint32_t v : soup.polygon(f)) {
-            text += ' ';
-            append_number(text, v);
-        }
+        append_polygon(text, soup.polygon(f));
         if (parts) {
             text += ' ';
             append_number(text, soup.parts[f]);

@@ -1,12 +1,16 @@
 /// Sample runs:
 ///   hexspline convert -i part.stl -o part.k
 ///   hexspline convert -i part_hex.vtk -o part_hex.vtu
+///   hexspline convert -i part.stl --labels labels.txt -o part_segment.k
 
 #include "hexspline/command.h"
 
+#include <hex/base/error.h>
+#include <hex/io/list_file.h>
 #include <hex/io/mesh_file.h>
 
 #include <algorithm>
+#include <climits>
 
 namespace cli {
 namespace {
@@ -29,7 +33,9 @@ std::string list_of_formats() {
 
 void describe(CommandLine& line) {
     line.add_input("surface or hexahedral mesh");
-    line.add_output("the same in the format of this file's extension");
+    line.add_output(
+        "the same in the format of this file's extension; .txt: its labels (part id - 1), one a line");
+    line.add("labels", value<std::string>("FILE"), "one label a polygon, as text: becomes the part id - 1");
 }
 
 /// Says what the new format drops.
@@ -41,13 +47,68 @@ void warn_of_loss(const CommandLine& line, std::span<const int> parts) {
                   " carries no part ids; they are lost");
 }
 
+/// Part ids from a file of labels: label + 1, as `segment` writes them.
+void set_labels(hex::io::SurfaceFile& surface, const std::filesystem::path& path) {
+    const std::vector<int> labels = hex::io::read_labels(path);
+    if (labels.size() != surface.soup.size())
+        throw hex::Error(hex::ErrorKind::bad_input,
+                         "holds " + std::to_string(labels.size()) + " labels for " +
+                             std::to_string(surface.soup.size()) + " polygons",
+                         path.string());
+    for (std::size_t f = 0; f < labels.size(); ++f) {
+        if (labels[f] == INT_MAX)
+            throw hex::Error(hex::ErrorKind::bad_input,
+                             "label " + std::to_string(labels[f]) + " is too large", path.string());
+        surface.soup.parts[f] = labels[f] + 1;
+    }
+    surface.part_names.clear();
+}
+
+/// The part ids of a surface or mesh as labels, one a line: part id - 1.
+void write_label_file(const std::filesystem::path& path, std::span<const int> parts) {
+    std::vector<int> labels(parts.begin(), parts.end());
+    for (int& label : labels) {
+        if (label == INT_MIN)
+            throw hex::Error(hex::ErrorKind::unsupported, "a part id is too small for a label",
+                             path.string());
+        --label;
+    }
+    hex::io::write_labels(path, labels);
+}
+
+bool names_label_file(const std::filesystem::path& path) {
+    std::string extension = path.extension().string();
+    for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    return extension == ".txt";
+}
+
+std::vector<int> parts_of(const hex::HexMesh& mesh) {
+    std::vector<int> parts;
+    for (const hex::CellId c : mesh.cells()) parts.push_back(mesh.part(c));
+    return parts;
+}
+
 int run(CommandLine& line) {
-    const hex::io::MeshFile file = hex::io::read_mesh_file(line.input());
+    hex::io::MeshFile file = hex::io::read_mesh_file(line.input());
+    line.context().check_cancelled();
+    const bool labels_out = names_label_file(line.output());
+    if (line.given("labels")) {
+        auto* surface = std::get_if<hex::io::SurfaceFile>(&file);
+        if (surface == nullptr)
+            throw hex::Error(hex::ErrorKind::usage, "--labels is for surfaces; the input holds hexahedra");
+        set_labels(*surface, line.get<std::string>("labels"));
+    }
     Json report;
-    if (const auto* surface = std::get_if<hex::io::SurfaceFile>(&file)) {
+    if (labels_out) {
+        const auto* surface = std::get_if<hex::io::SurfaceFile>(&file);
+        const auto parts =
+            surface != nullptr ? surface->soup.parts : parts_of(std::get<hex::io::HexFile>(file).mesh);
+        write_label_file(line.output(), parts);
+        report = {{"content", "labels"}, {"labels", parts.size()}};
+    } else if (const auto* surface = std::get_if<hex::io::SurfaceFile>(&file)) {
         line.log(surface->diagnostics);
         warn_of_loss(line, surface->soup.parts);
-        hex::io::write_surface(line.output(), surface->soup);
+        hex::io::write_surface(line.output(), surface->soup, surface->part_names);
         report = {{"content", "surface"},
                   {"points", surface->soup.points.size()},
                   {"polygons", surface->soup.size()},
@@ -57,7 +118,9 @@ int run(CommandLine& line) {
     } else {
         const auto& hexahedra = std::get<hex::io::HexFile>(file);
         line.log(hexahedra.diagnostics);
-        hex::io::write_hex_mesh(line.output(), hexahedra.mesh);
+        hex::io::Fields fields;
+        fields.part_names = hexahedra.part_names;
+        hex::io::write_hex_mesh(line.output(), hexahedra.mesh, fields);
         report = {{"content", "hexahedra"},
                   {"points", hexahedra.mesh.vertex_count()},
                   {"hexahedra", hexahedra.mesh.cell_count()},
@@ -69,14 +132,16 @@ int run(CommandLine& line) {
     return 0;
 }
 
-const RegisterCommand registered({.name = "convert",
-                                  .order = 80,
-                                  .summary = "any mesh format in, any out that carries the same thing",
-                                  .description = list_of_formats(),
-                                  .sample_runs = {"hexspline convert -i part.stl -o part.k",
-                                                  "hexspline convert -i part_hex.vtk -o part_hex.vtu"},
-                                  .describe = describe,
-                                  .run = run});
+const RegisterCommand registered(
+    {.name = "convert",
+     .order = 80,
+     .summary = "any mesh format in, any out that carries the same thing",
+     .description = list_of_formats(),
+     .sample_runs = {"hexspline convert -i part.stl -o part.k",
+                     "hexspline convert -i part_hex.vtk -o part_hex.vtu",
+                     "hexspline convert -i part.stl --labels labels.txt -o part_segment.k"},
+     .describe = describe,
+     .run = run});
 
 }  // namespace
 }  // namespace cli

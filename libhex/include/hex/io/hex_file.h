@@ -3,6 +3,7 @@
 #pragma once
 
 #include <hex/base/diagnostics.h>
+#include <hex/io/part_names.h>
 #include <hex/volume/hex_mesh.h>
 
 #include <filesystem>
@@ -14,6 +15,7 @@ namespace hex::io {
 /// A hexahedral mesh as read, with what the reader noticed.
 struct HexFile {
     HexMesh mesh;
+    PartNames part_names;
     Diagnostics diagnostics;
 };
 
@@ -25,11 +27,13 @@ struct ScalarField {
 struct Fields {
     std::vector<ScalarField> cell;
     std::vector<ScalarField> vertex;
+    /// Of part ids; used by formats that have them (.inp, .msh), passed over by the others.
+    PartNames part_names = {};
 };
 
-/// Reads .k .key .vtk .vtu .mesh (any case). A file of shells or triangles gives Error{bad_input} that says
-/// so. Throws Error{bad_input} with `file:line` (or byte offset), Error{unsupported} for an unknown
-/// extension.
+/// Reads .k .key .vtk .vtu .mesh .mfem .inp .msh .ovm (any case). A file of shells or triangles gives
+/// Error{bad_input} that says so. Throws Error{bad_input} with `file:line` (or byte offset),
+/// Error{unsupported} for an unknown extension.
 HexFile read_hex_mesh(const std::filesystem::path& path);
 
 /// Writes the format of the extension; throws Error{unsupported} or Error{output}. Part ids are kept where

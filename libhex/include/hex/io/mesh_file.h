@@ -25,6 +25,8 @@ struct FormatInfo {
     bool writes_hexahedra = false;
     /// Part ids survive writing and reading.
     bool part_ids = false;
+    /// And so do their names.
+    bool part_names = false;
     /// Largest polygon that can be written; 0 = any.
     int most_corners = 0;
     /// Scalar fields can be written with hexahedra.
@@ -40,7 +42,7 @@ const std::vector<FormatInfo>& formats();
 const FormatInfo* find_format(const std::filesystem::path& path);
 
 /// Extensions of the formats for which `flag` is set, separated by blanks, for messages and help:
-/// `extensions_of(&FormatInfo::writes_hexahedra)` is ".k .key .vtk .vtu .mesh".
+/// `extensions_of(&FormatInfo::writes_hexahedra)` is ".k .key .vtk .vtu .mesh ...".
 std::string extensions_of(bool FormatInfo::*flag);
 
 /// A surface or a hexahedral mesh.

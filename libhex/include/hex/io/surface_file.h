@@ -3,6 +3,7 @@
 #pragma once
 
 #include <hex/base/diagnostics.h>
+#include <hex/io/part_names.h>
 #include <hex/surface/polygon_soup.h>
 
 #include <filesystem>
@@ -12,17 +13,20 @@ namespace hex::io {
 /// A surface as read, with what the reader noticed (unknown keywords, skipped elements, ...).
 struct SurfaceFile {
     PolygonSoup soup;
+    PartNames part_names;
     Diagnostics diagnostics;
 };
 
-/// Reads .k .key .vtk .vtu .mesh .stl .obj .off .ply (any case). A file of hexahedra gives Error{bad_input}
-/// that says so. Points that no polygon uses are kept; whether the polygons make a surface is not asked here
-/// (make_poly_mesh does). Throws Error{bad_input} with `file:line` (or byte offset for binary formats),
-/// Error{unsupported} for an unknown extension.
+/// Reads .k .key .vtk .vtu .mesh .mfem .inp .msh .ovm .stl .obj .off .ply (any case). A file of hexahedra
+/// gives Error{bad_input} that says so. Points that no polygon uses are kept; whether the polygons make a
+/// surface is not asked here (make_poly_mesh does). Throws Error{bad_input} with `file:line` (or byte offset
+/// for binary formats), Error{unsupported} for an unknown extension.
 SurfaceFile read_surface(const std::filesystem::path& path);
 
 /// Writes the format of the extension; throws Error{unsupported} for one that cannot carry a surface,
 /// Error{output} when the file cannot be written. Doubles round-trip exactly in every text format.
-void write_surface(const std::filesystem::path& path, const PolygonSoup& soup);
+/// `part_names` are used by formats that have them (.inp, .msh).
+void write_surface(const std::filesystem::path& path, const PolygonSoup& soup,
+                   const PartNames& part_names = {});
 
 }  // namespace hex::io

@@ -1,13 +1,16 @@
-// Legacy VTK files, versions 1 to 5.1, ASCII and binary: unstructured grids and poly data.
+// Reads legacy VTK files, versions 1 to 5.1, ASCII and binary: unstructured grids and poly data.
 #include "io/byte_order.h"
 #include "io/formats.h"
+#include "io/number_array.h"
 #include "io/text_scanner.h"
 #include "io/vtk_cells.h"
 
 #include <hex/base/error.h>
 
+#include <algorithm>
 #include <array>
 #include <limits>
+#include <span>
 
 namespace hex::io {
 namespace {
@@ -215,6 +218,11 @@ class LegacyVtkReader {
         start_array(3 * count, type());
         has_points_ = true;
         auto& points = data_.points();
+        if (!binary_) {
+            points.resize(count);
+            if (count > 0 && take_numbers(std::span(points.front().data(), 3 * count))) return;
+            points.clear();
+        }
         points.reserve(count);
         for (std::size_t i = 0; i < count; ++i) {
             const double x = next_real();
@@ -244,6 +252,7 @@ class LegacyVtkReader {
             scanner_.fail(std::to_string(count) + " cells do not fit into a list of " + std::to_string(size) +
                           " numbers");
         start_array(size, Type::int32);
+        if (take_rows(result, count, size)) return;
         result.offsets.reserve(count + 1);
         result.corners.reserve(size - count);
         std::size_t left = size;
@@ -257,6 +266,47 @@ class LegacyVtkReader {
             result.offsets.push_back(result.corners.size());
         }
         if (left > 0) fail_value("the cells leave " + std::to_string(left) + " numbers of their list unused");
+    }
+
+    /// The rows of a text file in one go; false, and nothing taken, when something about them is wrong: then
+    /// they are read one by one, which finds out what and where.
+    bool take_rows(Rows& result, std::size_t count, std::size_t size) {
+        if (binary_) return false;
+        const std::size_t start = scanner_.position();
+        std::vector<std::uint32_t> numbers(size);
+        if (!take_numbers(std::span(numbers))) return false;
+        Rows rows;
+        rows.offsets.reserve(count + 1);
+        rows.corners.reserve(size - count);
+        const std::size_t points = data_.points().size();
+        std::size_t next = 0;
+        for (std::size_t c = 0; c < count; ++c) {
+            const std::size_t corners = next < size ? numbers[next++] : 0;
+            bool good = corners >= 1 && corners <= size - next;
+            for (std::size_t i = 0; good && i < corners; ++i) {
+                good = numbers[next] < points;
+                rows.corners.push_back(numbers[next++]);
+            }
+            if (!good) {
+                scanner_.seek(start);
+                return false;
+            }
+            rows.offsets.push_back(rows.corners.size());
+        }
+        if (next != size) {
+            scanner_.seek(start);
+            return false;
+        }
+        result = std::move(rows);
+        return true;
+    }
+
+    /// The next numbers of a text file; false, and nothing taken, when they are not all there and right.
+    template <class Number>
+    bool take_numbers(std::span<Number> numbers) {
+        const auto end = parse_numbers(scanner_.text(), scanner_.position(), numbers);
+        if (end) scanner_.seek(*end);
+        return end.has_value();
     }
 
     /// The layout since version 5: offsets of all cells, then corners of all cells.
@@ -294,6 +344,12 @@ class LegacyVtkReader {
             scanner_.fail(std::to_string(count) + " cell types for " + std::to_string(cells_.size()) +
                           " cells");
         start_array(count, Type::int32);
+        std::vector<std::uint32_t> numbers(binary_ ? 0 : count);
+        if (!binary_ && take_numbers(std::span(numbers)) &&
+            std::all_of(numbers.begin(), numbers.end(), [](std::uint32_t type) { return type <= 255; })) {
+            types_.assign(numbers.begin(), numbers.end());
+            return;
+        }
         types_.reserve(count);
         for (std::size_t i = 0; i < count; ++i) {
             const long long value = next_integer();
@@ -447,116 +503,10 @@ class LegacyVtkReader {
     std::vector<int> parts_;
 };
 
-void write_points(OutputFile& out, std::span<const Vec3> points) {
-    out.write("# vtk DataFile Version 3.0\nwritten by hexspline\nASCII\nDATASET UNSTRUCTURED_GRID\nPOINTS ");
-    std::string& text = out.buffer();
-    append_number(text, points.size());
-    text += " double\n";
-    for (const Vec3& point : points) {
-        append_point(text, point);
-        text += '\n';
-        out.flush_if_large();
-    }
-}
-
-void write_section(OutputFile& out, const char* keyword, std::size_t first, const char* separator = "\n") {
-    out.buffer() += keyword;
-    append_number(out.buffer(), first);
-    out.buffer() += separator;
-}
-
-template <class Value>
-void write_lines(OutputFile& out, std::size_t count, const Value& value) {
-    for (std::size_t i = 0; i < count; ++i) {
-        append_number(out.buffer(), value(i));
-        out.buffer() += '\n';
-        out.flush_if_large();
-    }
-}
-
-/// VTK's own escape: a field name is one word.
-std::string encoded_name(std::string_view name) {
-    static constexpr char digits[] = "0123456789ABCDEF";
-    std::string result;
-    for (const char c : name) {
-        const auto byte = static_cast<unsigned char>(c);
-        if (byte <= 32 || byte >= 127 || c == '%' || c == '"') {
-            result += '%';
-            result += digits[byte / 16];
-            result += digits[byte % 16];
-        } else {
-            result += c;
-        }
-    }
-    return result.empty() ? "field" : result;
-}
-
-void write_scalars(OutputFile& out, const std::vector<ScalarField>& fields) {
-    for (const ScalarField& field : fields) {
-        out.write("SCALARS " + encoded_name(field.name) + " double 1\nLOOKUP_TABLE default\n");
-        write_lines(out, field.values.size(), [&](std::size_t i) { return field.values[i]; });
-    }
-}
-
-void write_parts(OutputFile& out, std::span<const int> parts) {
-    out.write("SCALARS " + std::string(part_field) + " int 1\nLOOKUP_TABLE default\n");
-    write_lines(out, parts.size(), [&](std::size_t i) { return parts[i]; });
-}
-
 }  // namespace
 
 MeshData read_legacy_vtk(const InputFile& file) {
     return LegacyVtkReader(file).read();
-}
-
-void write_legacy_vtk_surface(OutputFile& out, const PolygonSoup& soup) {
-    write_points(out, soup.points);
-    write_section(out, "CELLS ", soup.size(), " ");
-    write_section(out, "", soup.size() + soup.corners.size());
-    std::string& text = out.buffer();
-    for (std::size_t f = 0; f < soup.size(); ++f) {
-        append_number(text, soup.polygon(f).size());
-        for (const std::uint32_t v : soup.polygon(f)) {
-            text += ' ';
-            append_number(text, v);
-        }
-        text += '\n';
-        out.flush_if_large();
-    }
-    write_section(out, "CELL_TYPES ", soup.size());
-    write_lines(out, soup.size(), [&](std::size_t f) { return polygon_type(soup.polygon(f).size()); });
-    if (has_parts(soup.parts)) {
-        write_section(out, "CELL_DATA ", soup.size());
-        write_parts(out, soup.parts);
-    }
-}
-
-void write_legacy_vtk_hexahedra(OutputFile& out, const HexMesh& mesh, const Fields& fields) {
-    write_points(out, mesh.positions());
-    write_section(out, "CELLS ", mesh.cell_count(), " ");
-    write_section(out, "", 9 * mesh.cell_count());
-    std::string& text = out.buffer();
-    for (const CellId c : mesh.cells()) {
-        text += '8';
-        for (const VertexId v : mesh.cell(c)) {
-            text += ' ';
-            append_number(text, v.value());
-        }
-        text += '\n';
-        out.flush_if_large();
-    }
-    write_section(out, "CELL_TYPES ", mesh.cell_count());
-    write_lines(out, mesh.cell_count(), [](std::size_t) { return int{vtk_hexahedron}; });
-    const bool parts = has_parts(mesh.parts());
-    if (parts || !fields.cell.empty()) {
-        write_section(out, "CELL_DATA ", mesh.cell_count());
-        if (parts) write_parts(out, mesh.parts());
-        write_scalars(out, fields.cell);
-    }
-    if (!fields.vertex.empty()) {
-        write_section(out, "POINT_DATA ", mesh.vertex_count());
-        write_scalars(out, fields.vertex);
-    }
 }
 
 }  // namespace hex::io

@@ -1,0 +1,322 @@
+// Gmsh meshes (.msh), versions 2.2 and 4.1, ASCII: triangles, quadrilaterals, hexahedra; physical groups are
+// parts.
+#include "io/formats.h"
+#include "io/id_map.h"
+#include "io/text_scanner.h"
+
+#include <hex/base/error.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <numeric>
+
+namespace hex::io {
+namespace {
+
+/// Corners of Gmsh's element types that are read; 0 for points and lines.
+std::optional<std::size_t> corners_of(int type) {
+    switch (type) {
+        case 1:
+        case 15:
+            return 0;
+        case 2:
+            return 3;
+        case 3:
+            return 4;
+        case 5:
+            return 8;
+        default:
+            return std::nullopt;
+    }
+}
+
+/// Nodes of the types that are skipped.
+std::size_t nodes_of_skipped(int type) {
+    return type == 1 ? 2 : 1;
+}
+
+struct Element {
+    long long tag;
+    std::array<long long, 8> nodes;
+    std::size_t corners;
+    int part;
+    std::size_t position;
+};
+
+class GmshReader {
+  public:
+    explicit GmshReader(const InputFile& file) : scanner_(file) {}
+
+    MeshData read() {
+        if (scanner_.word("$MeshFormat") != "$MeshFormat")
+            scanner_.fail("not a Gmsh mesh: it does not start with $MeshFormat");
+        format();
+        while (!scanner_.at_end()) section(std::string(scanner_.word("a section")));
+        if (!has_nodes_) scanner_.fail("the file has no $Nodes");
+        finish();
+        return std::move(data_);
+    }
+
+  private:
+    void format() {
+        const std::string version(scanner_.word("the version"));
+        if (version != "2.2" && version != "2" && version != "4.1")
+            scanner_.unsupported("Gmsh format " + in_quotes(version) + " is not supported",
+                                 "2.2 and 4.1 can be read");
+        new_layout_ = version == "4.1";
+        if (scanner_.integer("the file type") != 0)
+            scanner_.unsupported("binary Gmsh files are not supported", "save as ASCII");
+        scanner_.integer("the size of a number");
+        end("$EndMeshFormat");
+    }
+
+    void end(const char* name) {
+        const auto word = scanner_.word(name);
+        if (word != name) scanner_.fail(std::string(name) + " should be here, not " + in_quotes(word));
+    }
+
+    void section(const std::string& name) {
+        if (name == "$PhysicalNames") return physical_names();
+        if (name == "$Entities" && new_layout_) return entities();
+        if (name == "$Nodes") return new_layout_ ? nodes_in_blocks() : nodes();
+        if (name == "$Elements") return new_layout_ ? elements_in_blocks() : elements();
+        if (!name.starts_with("$")) scanner_.fail("a section should be here, not " + in_quotes(name));
+        static constexpr std::array<std::string_view, 4> harmless = {"$Comments", "$NodeData", "$ElementData",
+                                                                     "$ElementNodeData"};
+        if (std::find(harmless.begin(), harmless.end(), name) == harmless.end())
+            data_.warn("unknown-keyword", "section " + in_quotes(name) + " is skipped");
+        const std::string last = "$End" + name.substr(1);
+        scanner_.rest_of_line();
+        while (scanner_.rest_of_line() != last) {
+            if (scanner_.position() >= scanner_.text().size()) scanner_.fail("the file ends within " + name);
+        }
+    }
+
+    void physical_names() {
+        const std::size_t count = scanner_.count("the number of names", 6);
+        for (std::size_t i = 0; i < count; ++i) {
+            const long long dimension = scanner_.integer("a dimension");
+            const int tag = scanner_.small_integer("a physical tag");
+            std::string_view name = scanner_.rest_of_line();
+            if (name.size() < 2 || name.front() != '"' || name.back() != '"')
+                scanner_.fail("a name in quotes should be here, not " + in_quotes(name));
+            name = name.substr(1, name.size() - 2);
+            if (name != "PART_" + std::to_string(tag)) names_[{dimension, tag}] = std::string(name);
+        }
+        end("$EndPhysicalNames");
+    }
+
+    /// Only the physical groups of surfaces and volumes are kept.
+    void entities() {
+        std::array<std::size_t, 4> counts{};
+        for (auto& count : counts) count = scanner_.count("the number of entities", 4);
+        for (int dimension = 0; dimension < 4; ++dimension) {
+            for (std::size_t i = 0; i < counts[static_cast<std::size_t>(dimension)]; ++i) {
+                const long long tag = scanner_.integer("the tag of an entity");
+                for (int k = 0; k < (dimension == 0 ? 3 : 6); ++k) scanner_.real("a coordinate");
+                const std::size_t groups = scanner_.count("the number of physical groups", 2);
+                for (std::size_t g = 0; g < groups; ++g) {
+                    const int physical = scanner_.small_integer("a physical tag");
+                    if (g == 0) group_of_entity_[{dimension, tag}] = physical;
+                }
+                if (dimension == 0) continue;
+                const std::size_t bounding = scanner_.count("the number of bounding entities", 2);
+                for (std::size_t b = 0; b < bounding; ++b) scanner_.integer("a bounding entity");
+            }
+        }
+        end("$EndEntities");
+    }
+
+    void start_nodes() {
+        if (has_nodes_) scanner_.fail("$Nodes a second time");
+        has_nodes_ = true;
+    }
+
+    void add_node(long long tag, const Vec3& point) {
+        node_tags_.add(tag);
+        data_.points().push_back(point);
+    }
+
+    void nodes() {
+        start_nodes();
+        const std::size_t count = scanner_.count("the number of nodes", 8);
+        data_.points().reserve(count);
+        for (std::size_t i = 0; i < count; ++i) {
+            const long long tag = positive("a node tag");
+            add_node(tag, scanner_.point());
+        }
+        finish_nodes();
+    }
+
+    void finish_nodes() {
+        end("$EndNodes");
+        const std::size_t twice = node_tags_.finish();
+        if (twice < node_tags_.size())
+            scanner_.fail("node " + std::to_string(node_tags_.id(twice)) + " is defined twice");
+    }
+
+    long long positive(const char* what) {
+        const long long value = scanner_.integer(what);
+        if (value < 1) scanner_.fail(std::string(what) + " should be positive, not " + std::to_string(value));
+        return value;
+    }
+
+    void nodes_in_blocks() {
+        start_nodes();
+        const std::size_t blocks = scanner_.count("the number of blocks", 8);
+        const std::size_t count = scanner_.count("the number of nodes", 8);
+        scanner_.integer("the smallest tag");
+        scanner_.integer("the largest tag");
+        data_.points().reserve(count);
+        std::vector<long long> tags;
+        for (std::size_t b = 0; b < blocks; ++b) {
+            const long long dimension = scanner_.integer("a dimension");
+            scanner_.integer("the tag of an entity");
+            const bool parametric = scanner_.integer("whether there are parameters") != 0;
+            const std::size_t size = scanner_.count("the number of nodes", 8);
+            tags.clear();
+            for (std::size_t i = 0; i < size; ++i) tags.push_back(positive("a node tag"));
+            for (std::size_t i = 0; i < size; ++i) {
+                add_node(tags[i], scanner_.point());
+                for (long long k = 0; parametric && k < dimension; ++k) scanner_.real("a parameter");
+            }
+        }
+        if (data_.points().size() != count)
+            scanner_.fail("there are " + std::to_string(data_.points().size()) + " nodes, not " +
+                          std::to_string(count));
+        finish_nodes();
+    }
+
+    std::size_t corners_or_fail(int type) const {
+        const auto corners = corners_of(type);
+        if (!corners)
+            scanner_.unsupported("elements of Gmsh's type " + std::to_string(type) + " are not supported",
+                                 "triangles, quadrilaterals and hexahedra of first order are read");
+        return *corners;
+    }
+
+    void take_element(long long tag, int type, std::size_t corners, int part) {
+        Element element{tag, {}, corners, part, scanner_.position()};
+        if (corners == 0) {
+            for (std::size_t i = 0; i < nodes_of_skipped(type); ++i) scanner_.integer("a node tag");
+            ++skipped_;
+            return;
+        }
+        for (std::size_t i = 0; i < corners; ++i) element.nodes[i] = scanner_.integer("a node tag");
+        elements_.push_back(element);
+    }
+
+    void start_elements() {
+        if (has_elements_) scanner_.fail("$Elements a second time");
+        has_elements_ = true;
+    }
+
+    void elements() {
+        start_elements();
+        const std::size_t count = scanner_.count("the number of elements", 8);
+        for (std::size_t i = 0; i < count; ++i) {
+            const long long tag = positive("an element tag");
+            const int type = scanner_.small_integer("an element type");
+            const std::size_t corners = corners_or_fail(type);
+            const std::size_t tags = scanner_.count("the number of tags", 2);
+            // The physical group, then the geometric entity; 0 is no group.
+            int physical = 0, entity = 1;
+            for (std::size_t t = 0; t < tags; ++t) {
+                const int value = scanner_.small_integer("a tag");
+                if (t == 0) physical = value;
+                if (t == 1) entity = value;
+            }
+            take_element(tag, type, corners, physical != 0 ? physical : entity);
+        }
+        end("$EndElements");
+    }
+
+    void elements_in_blocks() {
+        start_elements();
+        const std::size_t blocks = scanner_.count("the number of blocks", 8);
+        const std::size_t count = scanner_.count("the number of elements", 4);
+        scanner_.integer("the smallest tag");
+        scanner_.integer("the largest tag");
+        std::size_t found = 0;
+        for (std::size_t b = 0; b < blocks; ++b) {
+            const int dimension = scanner_.small_integer("a dimension");
+            const int entity = scanner_.small_integer("the tag of an entity");
+            const int type = scanner_.small_integer("an element type");
+            const std::size_t corners = corners_or_fail(type);
+            const std::size_t size = scanner_.count("the number of elements", 4);
+            const auto group = group_of_entity_.find({dimension, entity});
+            const int part = group == group_of_entity_.end() ? entity : group->second;
+            for (std::size_t i = 0; i < size; ++i)
+                take_element(positive("an element tag"), type, corners, part);
+            found += size;
+        }
+        if (found != count)
+            scanner_.fail("there are " + std::to_string(found) + " elements, not " + std::to_string(count));
+        end("$EndElements");
+    }
+
+    /// In the order of their tags: files of version 4 hold them part by part.
+    void finish() {
+        std::vector<std::uint32_t> order(elements_.size());
+        std::iota(order.begin(), order.end(), 0U);
+        std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+            return std::pair(elements_[a].tag, a) < std::pair(elements_[b].tag, b);
+        });
+        for (std::size_t i = 0; i < order.size(); ++i) {
+            const Element& element = elements_[order[i]];
+            scanner_.seek(element.position);
+            scanner_.peek();
+            if (i > 0 && elements_[order[i - 1]].tag == element.tag)
+                fail_at(element, "element " + std::to_string(element.tag) + " is defined twice");
+            add(element);
+        }
+        if (skipped_ > 0)
+            data_.warn("elements-skipped", std::to_string(skipped_) + " points and lines are skipped");
+        for (const auto& [key, name] : names_) {
+            if (key.first == (data_.hexahedra.empty() ? 2 : 3)) data_.part_names[key.second] = name;
+        }
+    }
+
+    [[noreturn]] void fail_at(const Element& element, const std::string& what) const {
+        throw Error(ErrorKind::bad_input, what, scanner_.file().line_place(element.position));
+    }
+
+    void add(const Element& element) {
+        std::array<std::uint32_t, 8> corners{};
+        for (std::size_t i = 0; i < element.corners; ++i) {
+            const std::size_t v = node_tags_.find(element.nodes[i]);
+            if (v == node_tags_.size())
+                fail_at(element, "element " + std::to_string(element.tag) + " uses node " +
+                                     std::to_string(element.nodes[i]) + ", which the file does not define");
+            corners[i] = static_cast<std::uint32_t>(v);
+        }
+        if (element.corners < 8) {
+            data_.add_polygon(std::span(corners).first(element.corners), element.part);
+            return;
+        }
+        HexCell cell;
+        for (std::size_t i = 0; i < 8; ++i) cell[i] = VertexId(corners[i]);
+        data_.hexahedra.push_back(cell);
+        data_.hexahedron_parts.push_back(element.part);
+    }
+
+    TextScanner scanner_;
+    MeshData data_;
+    bool new_layout_ = false;
+    bool has_nodes_ = false;
+    bool has_elements_ = false;
+    std::size_t skipped_ = 0;
+    IdMap node_tags_;
+    std::vector<Element> elements_;
+    std::map<std::pair<long long, int>, std::string> names_;
+    std::map<std::pair<int, long long>, int> group_of_entity_;
+};
+
+}  // namespace
+
+MeshData read_gmsh(const InputFile& file) {
+    return GmshReader(file).read();
+}
+
+}  // namespace hex::io

@@ -1,0 +1,133 @@
+// Writes Gmsh meshes, version 4.1, ASCII: one entity with one physical group a part. Element tags are the
+// order of the elements.
+#include "io/formats.h"
+#include "io/part_numbers.h"
+
+#include <hex/base/error.h>
+#include <hex/io/number_text.h>
+
+#include <algorithm>
+#include <functional>
+#include <map>
+
+namespace hex::io {
+namespace {
+
+/// What the writer wants to know of a mesh, surface or solid.
+struct Elements {
+    int dimension;
+    std::size_t count;
+    std::function<int(std::size_t)> part;
+    std::function<std::size_t(std::size_t)> corners;
+    std::function<std::size_t(std::size_t, std::size_t)> corner;
+};
+
+int type_of(std::size_t corners) {
+    return corners == 3 ? 2 : corners == 4 ? 3 : 5;
+}
+
+template <class... Values>
+void append_row(std::string& text, const Values&... values) {
+    bool first = true;
+    const auto add = [&](const auto& value) {
+        if (!first) text += ' ';
+        first = false;
+        append_number(text, value);
+    };
+    (add(values), ...);
+    text += '\n';
+}
+
+std::string quoted(std::string name) {
+    for (char& c : name)
+        if (c == '"' || static_cast<unsigned char>(c) < 32) c = '_';
+    return '"' + name + '"';
+}
+
+/// Gmsh's tags of entities and groups are positive.
+void require_positive(int part) {
+    if (part < 1)
+        throw Error(ErrorKind::unsupported, "part id " + std::to_string(part) + " is not positive", {},
+                    "Gmsh knows only positive ones");
+}
+
+void write(OutputFile& out, std::span<const Vec3> points, const Elements& elements, const PartNames& names) {
+    /// Element lists by part and type.
+    std::map<std::pair<int, int>, std::vector<std::size_t>> blocks;
+    std::vector<int> parts;
+    for (std::size_t e = 0; e < elements.count; ++e) {
+        blocks[{elements.part(e), type_of(elements.corners(e))}].push_back(e);
+        parts.push_back(elements.part(e));
+    }
+    parts = distinct_parts(std::move(parts));
+    for (const int part : parts) require_positive(part);
+
+    std::string& text = out.buffer();
+    text += "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n";
+    append_row(text, parts.size());
+    for (const int part : parts) {
+        append_number(text, elements.dimension);
+        text += ' ';
+        append_number(text, part);
+        text += ' ' + quoted(name_of_part(part, names)) + '\n';
+    }
+    BoundingBox box;
+    for (const Vec3& point : points) box.add(point);
+    if (box.empty()) box.add(Vec3::Zero());
+    text += "$EndPhysicalNames\n$Entities\n";
+    const std::size_t surfaces = elements.dimension == 2 ? parts.size() : 0;
+    append_row(text, 0, 0, surfaces, parts.size() - surfaces);
+    for (const int part : parts) {
+        append_number(text, part);
+        text += ' ';
+        append_point(text, box.lower);
+        text += ' ';
+        append_point(text, box.upper);
+        text += " 1 ";
+        append_number(text, part);
+        text += " 0\n";
+    }
+    text += "$EndEntities\n$Nodes\n";
+    append_row(text, 1, points.size(), 1, points.size());
+    append_row(text, elements.dimension, parts.empty() ? 1 : parts.front(), 0, points.size());
+    for (std::size_t v = 0; v < points.size(); ++v) {
+        append_row(text, v + 1);
+        out.flush_if_large();
+    }
+    append_points(out, points);
+    text += "$EndNodes\n$Elements\n";
+    append_row(text, blocks.size(), elements.count, 1, elements.count);
+    for (const auto& [key, list] : blocks) {
+        append_row(text, elements.dimension, key.first, key.second, list.size());
+        for (const std::size_t e : list) {
+            append_number(text, e + 1);
+            for (std::size_t i = 0; i < elements.corners(e); ++i) {
+                text += ' ';
+                append_number(text, elements.corner(e, i) + 1);
+            }
+            text += '\n';
+            out.flush_if_large();
+        }
+    }
+    text += "$EndElements\n";
+}
+
+}  // namespace
+
+void write_gmsh_surface(OutputFile& out, const PolygonSoup& soup, const PartNames& names) {
+    write(out, soup.points,
+          {2, soup.size(), [&](std::size_t f) { return soup.parts[f]; },
+           [&](std::size_t f) { return soup.polygon(f).size(); },
+           [&](std::size_t f, std::size_t i) { return std::size_t{soup.polygon(f)[i]}; }},
+          names);
+}
+
+void write_gmsh_hexahedra(OutputFile& out, const HexMesh& mesh, const Fields& fields) {
+    write(out, mesh.positions(),
+          {3, mesh.cell_count(), [&](std::size_t c) { return mesh.part(CellId(c)); },
+           [](std::size_t) { return std::size_t{8}; },
+           [&](std::size_t c, std::size_t i) { return mesh.cell(CellId(c))[i].index(); }},
+          fields.part_names);
+}
+
+}  // namespace hex::io

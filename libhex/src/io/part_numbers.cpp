@@ -1,0 +1,56 @@
+#include "io/part_numbers.h"
+
+#include "io/input_file.h"
+
+#include <hex/io/number_text.h>
+
+#include <algorithm>
+#include <climits>
+#include <set>
+
+namespace hex::io {
+namespace {
+
+constexpr std::string_view prefix = "PART_";
+
+/// 7 of "PART_7" (any case); 0 for other names.
+int number_in(const std::string& name) {
+    if (!upper_case(name).starts_with(prefix)) return 0;
+    const auto value = parse_integer(std::string_view(name).substr(prefix.size()));
+    return value && *value >= INT_MIN && *value <= INT_MAX ? static_cast<int>(*value) : 0;
+}
+
+}  // namespace
+
+std::vector<int> number_parts(const std::vector<std::string>& names, PartNames& kept) {
+    std::vector<int> numbers(names.size(), 0);
+    std::vector<char> numbered(names.size(), 0);
+    std::set<int> taken;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        numbers[i] = number_in(names[i]);
+        numbered[i] =
+            (numbers[i] != 0 || upper_case(names[i]) == "PART_0") && taken.insert(numbers[i]).second;
+    }
+    int next = 1;
+    for (std::size_t i = 0; i < names.size(); ++i) {
+        if (numbered[i]) continue;
+        while (taken.contains(next)) ++next;
+        numbers[i] = next;
+        taken.insert(next);
+        kept[next] = names[i];
+    }
+    return numbers;
+}
+
+std::string name_of_part(int part, const PartNames& names) {
+    const auto found = names.find(part);
+    return found != names.end() ? found->second : std::string(prefix) + std::to_string(part);
+}
+
+std::vector<int> distinct_parts(std::vector<int> parts) {
+    std::sort(parts.begin(), parts.end());
+    parts.erase(std::unique(parts.begin(), parts.end()), parts.end());
+    return parts;
+}
+
+}  // namespace hex::io

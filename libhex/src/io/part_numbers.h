@@ -1,0 +1,22 @@
+/// \file part_numbers.h
+/// Part ids for formats that know parts by name.
+#pragma once
+
+#include <hex/io/part_names.h>
+
+#include <string>
+#include <vector>
+
+namespace hex::io {
+
+/// Part ids for the named parts, in their order: "PART_7" is 7, as our writers call a part without a name;
+/// the other names get the smallest numbers that are left, and are added to `kept`. The names must differ.
+std::vector<int> number_parts(const std::vector<std::string>& names, PartNames& kept);
+
+/// The name of a part, or "PART_7".
+std::string name_of_part(int part, const PartNames& names);
+
+/// The part ids, ascending, each once.
+std::vector<int> distinct_parts(std::vector<int> parts);
+
+}  // namespace hex::io

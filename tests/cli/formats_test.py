@@ -1,0 +1,154 @@
+#!/usr/bin/env python3
+"""convert between the formats of finite element programs; other programs read what we write.
+
+    formats_test.py HEXSPLINE DATA
+"""
+import unittest
+
+from program import ROD, CommandTest
+
+try:
+    import meshio
+    import numpy as np
+except ImportError:
+    meshio = None
+
+HEX = ('.k', '.vtk', '.vtu', '.mesh', '.mfem', '.inp', '.msh', '.ovm')
+
+ABAQUS = '''*HEADING
+ two cubes
+** a comment
+*NODE, NSET=ALL
+ 10, 0., 0., 0.
+ 11, 1., 0., 0.
+ 12, 1., 1., 0.
+ 13, 0., 1., 0.
+ 20, 0., 0., 1.
+ 21, 1., 0., 1.
+ 22, 1., 1., 1.
+ 23, 0., 1., 1.
+ 30, 0., 0., 2.
+ 31, 1., 0., 2.
+ 32, 1., 1., 2.
+ 33, 0., 1., 2.
+*ELEMENT, TYPE=C3D8R, ELSET=lower
+ 7, 10, 11, 12, 13, 20, 21,
+ 22, 23
+*element, type=C3D8I
+ 9, 20, 21, 22, 23, 30, 31, 32, 33
+*ELSET, ELSET=Upper, GENERATE
+ 9, 9, 1
+*MATERIAL, NAME=steel
+*ELASTIC
+ 210000., 0.3
+'''
+
+
+class Formats(CommandTest):
+    def make_mesh(self):
+        """A mesh with several part ids."""
+        self.run_program('map', ROD / 'rod_patches.k', '-p', ROD / 'rod_blocks.k', '-s', '1', '-o', 'a.vtk')
+
+    def vtk_text(self, name):
+        return (self.folder / name).read_text()
+
+    def test_every_format_gives_the_mesh_back(self):
+        self.make_mesh()
+        self.run_program('convert', 'a.vtk', '-o', 'chain.k')
+        source = 'chain.k'
+        for extension in (*(e for e in HEX if e != '.ovm'), '.vtk'):
+            target = f'next{extension}'
+            self.run_program('convert', source, '-o', target)
+            source = target
+        self.assertEqual(self.vtk_text('a.vtk'), self.vtk_text(source))
+        # The corners of a cell may start elsewhere, but the mesh is as good as before.
+        self.run_program('convert', source, '-o', 'b.ovm')
+        self.run_program('convert', 'b.ovm', '-o', 'b.vtk')
+        tables = [self.run_program('check', name, '--min-scaled-jacobian', '-1').stdout for name in ('a.vtk', 'b.vtk')]
+        self.assertEqual(*(table.split('metric')[0] for table in tables))
+
+    def test_names_of_parts_survive(self):
+        (self.folder / 'part.inp').write_text(ABAQUS)
+        self.run_program('convert', 'part.inp', '-o', 'part.msh')
+        self.run_program('convert', 'part.msh', '-o', 'again.inp')
+        text = (self.folder / 'again.inp').read_text()
+        self.assertIn('*ELSET, ELSET=lower\n1\n', text)
+        self.assertIn('*ELSET, ELSET=Upper\n2\n', text)
+
+    def test_labels(self):
+        self.run_program('convert', ROD / 'rod_patches.k', '-o', 'labels.txt')
+        labels = (self.folder / 'labels.txt').read_text().split()
+        self.run_program('convert', ROD / 'rod.stl', '--labels', 'labels.txt', '-o', 'no.k', code=3) if len(labels) == 3 else None
+        self.run_program('convert', ROD / 'rod_patches.k', '-o', 'plain.off')
+        self.run_program('convert', 'plain.off', '--labels', 'labels.txt', '-o', 'labelled.k')
+        self.run_program('convert', 'labelled.k', '-o', 'again.txt')
+        self.assertEqual(labels, (self.folder / 'again.txt').read_text().split())
+        (self.folder / 'short.txt').write_text('1\n2\n')
+        message = self.run_program('convert', 'plain.off', '--labels', 'short.txt', '-o', 'no.k', code=3).stderr
+        self.assertIn('short.txt', message)
+        self.assertFalse((self.folder / 'no.k').exists())
+
+    @unittest.skipIf(meshio is None, 'no meshio')
+    def test_meshio_reads_what_we_write(self):
+        self.make_mesh()
+        expected = meshio.read(self.folder / 'a.vtk')
+        cells = expected.cells_dict['hexahedron']
+        parts = np.ravel(expected.cell_data['part_id'][0])
+        self.assertGreater(len(set(parts)), 1)
+        for name in ('b.inp', 'b.msh'):
+            self.run_program('convert', 'a.vtk', '-o', name)
+            mesh = meshio.read(self.folder / name)
+            self.assertTrue((mesh.points == expected.points).all(), name)
+            if name == 'b.inp':
+                self.assertTrue((mesh.cells_dict['hexahedron'] == cells).all(), name)
+                for part in set(parts):
+                    members = mesh.cell_sets[f'PART_{part}'][0]
+                    self.assertEqual(list(members), list(np.flatnonzero(parts == part)))
+            else:
+                # Part by part.
+                order = np.argsort(parts, kind='stable')
+                found = np.concatenate([block.data for block in mesh.cells])
+                self.assertTrue((found == cells[order]).all(), name)
+                self.assertTrue((np.concatenate(mesh.cell_data['gmsh:physical']) == parts[order]).all(), name)
+
+    @unittest.skipIf(meshio is None, 'no meshio')
+    def test_we_read_what_meshio_writes(self):
+        self.make_mesh()
+        mesh = meshio.read(self.folder / 'a.vtk')
+        bare = meshio.Mesh(mesh.points, [('hexahedron', mesh.cells_dict['hexahedron'])])
+        meshio.write(self.folder / 'm.inp', bare, file_format='abaqus')
+        meshio.write(self.folder / 'm2.msh', bare, file_format='gmsh22', binary=False)
+        meshio.write(self.folder / 'm4.msh', bare, file_format='gmsh', binary=False)
+        for name in ('m.inp', 'm2.msh', 'm4.msh'):
+            self.run_program('convert', name, '-o', 'back.vtu')
+            back = meshio.read(self.folder / 'back.vtu')
+            self.assertTrue((back.cells_dict['hexahedron'] == mesh.cells_dict['hexahedron']).all(), name)
+            self.assertLess(abs(back.points - mesh.points).max(), 1e-12, name)
+
+    def test_mfem_and_open_volume_mesh_say_what_their_formats_demand(self):
+        (self.folder / 'part.inp').write_text(ABAQUS)
+        self.run_program('convert', 'part.inp', '-o', 'part.mfem')
+        words = (self.folder / 'part.mfem').read_text().split()
+        at = words.index('elements')
+        self.assertEqual(words[at + 1:at + 12], '2 1 5 0 1 2 3 4 5 6 7'.split())
+        self.run_program('convert', 'part.mfem', '-o', 'part.mesh')
+        (self.folder / 'other.mesh').write_text((self.folder / 'part.mfem').read_text())
+        self.run_program('convert', 'other.mesh', '-o', 'other.vtk')
+        self.run_program('convert', 'part.inp', '-o', 'part.ovm')
+        lines = (self.folder / 'part.ovm').read_text().splitlines()
+        section = lambda name: (lines.index(name) + 2, int(lines[lines.index(name) + 1]))
+        start, count = section('Edges')
+        edges = [tuple(map(int, line.split())) for line in lines[start:start + count]]
+        self.assertEqual(len(set(edges)), 20)
+        start, count = section('Faces')
+        self.assertEqual(count, 11)
+        for line in lines[start:start + count]:
+            sides = [edges[int(h) // 2][::-1 if int(h) % 2 else 1] for h in line.split()[1:]]
+            self.assertEqual([s[1] for s in sides], [s[0] for s in sides[1:] + sides[:1]], 'a closed loop')
+        start, count = section('Polyhedra')
+        used = [h for line in lines[start:start + count] for h in line.split()[1:]]
+        self.assertEqual(len(used), len(set(used)), 'each half-face has one cell')
+
+
+if __name__ == '__main__':
+    unittest.main()

@@ -1,0 +1,170 @@
+#!/usr/bin/env python3
+"""The program against everything around it: odd files, full disks, little memory, being stopped.
+
+    robustness_test.py HEXSPLINE DATA
+"""
+import os
+import resource
+import signal
+import subprocess
+import time
+import unittest
+from pathlib import Path
+
+from program import PROGRAM, ROD, CommandTest
+
+
+def grid_text(n):
+    """An ASCII .vtk file of n^3 hexahedra."""
+    m = n + 1
+    rows = ['# vtk DataFile Version 3.0', 'grid', 'ASCII', 'DATASET UNSTRUCTURED_GRID', f'POINTS {m ** 3} double']
+    rows += [f'{i} {j} {k}' for k in range(m) for j in range(m) for i in range(m)]
+    rows += [f'CELLS {n ** 3} {9 * n ** 3}']
+    for k in range(n):
+        for j in range(n):
+            for i in range(n):
+                a = i + m * (j + m * k)
+                rows.append(f'8 {a} {a + 1} {a + m + 1} {a + m} {a + m * m} {a + m * m + 1} {a + m * m + m + 1} {a + m * m + m}')
+    rows += [f'CELL_TYPES {n ** 3}'] + ['12'] * n ** 3
+    return '\n'.join(rows) + '\n'
+
+
+class Robustness(CommandTest):
+    def one_line(self, *arguments, code, **options):
+        done = subprocess.run([PROGRAM, *map(str, arguments)], cwd=self.folder, stdin=subprocess.DEVNULL, capture_output=True,
+                              text=True, timeout=60, **options)
+        self.assertEqual(done.returncode, code, done.stderr)
+        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+        self.assertIn(': error: ', done.stderr)
+        return done.stderr
+
+    def left_over(self):
+        return [path.name for path in self.folder.rglob('*') if '.part-' in path.name]
+
+    def test_what_is_no_file_as_input(self):
+        os.mkfifo(self.folder / 'pipe.vtk')
+        for odd in ('pipe.vtk', '.', 'missing.vtk', '/dev/null', '/dev/zero'):
+            for command in (['check'], ['convert', '-o', 'out.vtk'], ['improve', '-o', 'out.vtk'], ['segment', '-o', 'out.k']):
+                self.one_line(*command, '-i', odd, code=3)
+        self.assertFalse((self.folder / 'out.vtk').exists())
+
+    def test_outputs_that_cannot_be_written(self):
+        self.one_line('convert', ROD / 'rod_tri.k', '-o', 'missing/folder/out.stl', code=5)
+        (self.folder / 'folder.off').mkdir()
+        self.one_line('convert', ROD / 'rod_tri.k', '-o', 'folder.off', code=5)
+        os.symlink('/dev/full', self.folder / 'full.off')
+        self.one_line('convert', ROD / 'rod_tri.k', '-o', 'full.off', code=5)
+        message = self.one_line('check', ROD / 'rod_blocks.k', '--min-scaled-jacobian', '-1', '--json', '/dev/full', code=5)
+        self.assertIn('/dev/full', message)
+        self.one_line('map', ROD / 'rod_patches.k', '-p', ROD / 'rod_blocks.k', '-o', 'full.off', '-s', '0', code=3)
+
+    def test_results_that_cannot_be_printed(self):
+        with open('/dev/full', 'w') as full:
+            done = subprocess.run([PROGRAM, 'plugins', '--json', '-'], stdout=full, stderr=subprocess.PIPE, text=True)
+        self.assertEqual(done.returncode, 5, done.stderr)
+
+    @unittest.skipIf(os.geteuid() == 0, 'root may write everywhere')
+    def test_a_folder_that_is_read_only(self):
+        (self.folder / 'locked').mkdir()
+        (self.folder / 'locked').chmod(0o500)
+        self.one_line('convert', ROD / 'rod_tri.k', '-o', 'locked/out.off', code=5)
+
+    def test_a_disk_that_is_full_keeps_the_old_file(self):
+        (self.folder / 'out.off').write_text('the old one')
+
+        def small_files():
+            signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+            resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))
+
+        self.one_line('convert', ROD / 'rod_tri.k', '-o', 'out.off', code=5, preexec_fn=small_files)
+        self.assertEqual((self.folder / 'out.off').read_text(), 'the old one')
+        self.assertEqual(self.left_over(), [])
+
+    def test_too_little_memory_is_said_to_be_so(self):
+        (self.folder / 'grid.vtk').write_text(grid_text(40))
+        # What the program needs to start, and a little.
+        def run(megabytes):
+            limit = megabytes << 20
+            return subprocess.run([PROGRAM, 'check', 'grid.vtk', '--threads', '1'], cwd=self.folder, stdin=subprocess.DEVNULL, capture_output=True,
+                                  text=True, preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
+
+        codes = []
+        for megabytes in range(110, 260, 10):
+            done = run(megabytes)
+            if 'error while loading shared libraries' in done.stderr:
+                continue
+            codes.append(done.returncode)
+            self.assertIn(done.returncode, (0, 5), done.stderr)
+            if done.returncode == 5:
+                self.assertIn('memory', done.stderr)
+        self.assertGreater(len(codes), 0)
+
+    def test_killed_while_writing_the_old_file_stays_whole(self):
+        (self.folder / 'grid.vtk').write_text(grid_text(40))
+        self.run_program('convert', 'grid.vtk', '-o', 'out.k')
+        whole = (self.folder / 'out.k').read_bytes()
+        for delay in (0.02, 0.05, 0.1, 0.2):
+            process = subprocess.Popen([PROGRAM, 'convert', 'grid.vtk', '-o', 'out.k'], cwd=self.folder)
+            time.sleep(delay)
+            process.kill()
+            process.wait()
+            self.assertEqual((self.folder / 'out.k').read_bytes(), whole)
+
+    def test_interrupted_it_stops_within_a_second_and_leaves_nothing(self):
+        self.run_program('map', ROD / 'rod_patches.k', '-p', ROD / 'rod_blocks.k', '-s', '3', '-o', 'rod.vtk')
+        process = subprocess.Popen([PROGRAM, 'improve', 'rod.vtk', '-m', 'optimize', '-n', '1000000', '-o', 'out.vtk'],
+                                   cwd=self.folder, stderr=subprocess.PIPE, text=True)
+        time.sleep(1)
+        process.send_signal(signal.SIGINT)
+        began = time.monotonic()
+        _, message = process.communicate(timeout=60)
+        taken = time.monotonic() - began
+        self.assertEqual(process.returncode, 130, message)
+        # A busy machine has other things to do.
+        busy = os.getloadavg()[0] / os.cpu_count()
+        self.assertLess(taken, max(1.0, 2 * busy))
+        self.assertFalse((self.folder / 'out.vtk').exists())
+        self.assertEqual(self.left_over(), [])
+
+    def test_names_with_blanks_and_umlauts_and_other_locales(self):
+        odd = self.folder / 'Größe der Näbe, 1'
+        odd.mkdir()
+        source, target = odd / 'ein Würfel.off', odd / "it's done.inp"
+        self.run_program('convert', ROD / 'rod_tri.k', '-o', source)
+        plain = source.read_text()
+        for locale in ('C', 'C.UTF-8', 'de_DE.UTF-8', 'fr_FR.ISO8859-1', 'no_such'):
+            environment = {**os.environ, 'LC_ALL': locale, 'LC_NUMERIC': locale}
+            done = subprocess.run([PROGRAM, 'convert', source, '-o', target], env=environment, capture_output=True, text=True)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.run_program('convert', target, '-o', odd / 'again.off')
+            self.assertEqual((odd / 'again.off').read_text(), plain)
+        long_name = odd / ('n' * 251 + '.off')
+        self.run_program('convert', source, '-o', long_name)
+        self.assertEqual(long_name.read_text(), plain)
+
+    def test_line_ends_and_byte_order_marks_of_other_systems(self):
+        for name in ('a.off', 'a.k', 'a.vtk', 'a.inp', 'a.msh', 'a.obj', 'a.mesh', 'a.mfem', 'a.ovm', 'a.ply', 'a.stl'):
+            self.run_program('convert', ROD / 'rod_tri.k', '-o', name)
+            self.run_program('convert', name, '-o', 'expected.off')
+            data = (self.folder / name).read_bytes()
+            (self.folder / name).write_bytes(b'\xef\xbb\xbf' + data.replace(b'\n', b'\r\n'))
+            self.run_program('convert', name, '-o', 'found.off')
+            self.assertEqual((self.folder / 'found.off').read_text(), (self.folder / 'expected.off').read_text(), name)
+
+    def test_counts_that_no_file_can_hold(self):
+        head = '# vtk DataFile Version 3.0\nt\nASCII\nDATASET UNSTRUCTURED_GRID\n'
+        for name, text in {'points.vtk': head + 'POINTS 999999999999 double\n0 0 0\n',
+                           'cells.vtk': head + 'POINTS 1 double\n0 0 0\nCELLS 9223372036854775807 9223372036854775807\n',
+                           'overflow.vtk': head + 'POINTS 99999999999999999999999 double\n0 0 0\n',
+                           'nan.off': 'OFF\n3 1 0\nnan 0 0\n1 0 0\n0 1 0\n3 0 1 2\n',
+                           'nodes.msh': '$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Nodes\n1 4000000000 1 1\n3 1 0 4000000000\n1\n0 0 0\n',
+                           'cubes.mfem': 'MFEM mesh v1.0\ndimension\n3\nelements\n4000000000\n',
+                           'edges.ovm': 'OVM ASCII\nVertices\n1\n0 0 0\nEdges\n4000000000\n'}.items():
+            (self.folder / name).write_text(text)
+            message = self.one_line('convert', name, '-o', 'out.k', code=3,
+                                    preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (1 << 30, 1 << 30)))
+            self.assertRegex(message, name + r':\d+: ')
+
+
+if __name__ == '__main__':
+    unittest.main()

@@ -1,0 +1,3 @@
+#include "fuzz_reader.h"
+
+HEX_FUZZ_READER(read_abaqus)
