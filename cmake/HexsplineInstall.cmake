@@ -10,3 +10,4 @@ install(FILES "${PROJECT_BINARY_DIR}/hexspline-config.cmake" "${PROJECT_BINARY_D
               "${PROJECT_SOURCE_DIR}/cmake/FindOpenMeshCore.cmake"
         DESTINATION "${package_dir}")
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/README.md" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+include(HexsplinePackage)

@@ -191,6 +191,24 @@ class Check(CommandTest):
         self.assertAlmostEqual(distance['vertex_max_percent'], 0)
         self.check('cube.vtk', '--surface', 'box.off', '--max-surface-distance', '5', code=1)
 
+    def test_a_spline_is_proved_not_to_fold(self):
+        write_vtk(self.folder / 'good.vtk', *grid(3, 3, 3))
+        self.run_program('spline', 'good.vtk', '-o', 'good.bext')
+        report, done = self.check('good.bext')
+        self.assertEqual(report['bezier']['elements'], report['bezier']['proved_positive'])
+        self.assertGreater(report['bezier']['elements'], 0)
+        self.assertEqual([gate['name'] for gate in report['gates']], ['bezier-validity'])
+        # Mirrored: every element is negative.
+        text = (self.folder / 'good.bext').read_text().split('\n')
+        for i, row in enumerate(text):
+            if row.startswith('gnode'):
+                keyword, x, y, z, w = row.split()
+                text[i] = f'{keyword} {x} {y} {-float(z)} {w}'
+        (self.folder / 'bad.bext').write_text('\n'.join(text))
+        report, done = self.check('bad.bext', '--junit', 'bad.xml', '--sarif', 'bad.sarif', code=1)
+        self.assertEqual(report['bezier']['negative'], report['bezier']['elements'])
+        self.assertIn('bezier-validity', done.stderr)
+
     def test_reports_for_build_servers(self):
         _, done = self.check('row.vtk', '--metric', 'scaled_jacobian:0.99', '--metric', 'volume:0:2', '--junit', 'out.xml', '--sarif',
                              'out.sarif', '--markdown', 'out.md', '--vtu', 'out.vtu', '--worst', '1', code=1)

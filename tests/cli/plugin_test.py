@@ -70,6 +70,33 @@ class Plugin(unittest.TestCase):
             self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
             self.assertIn(str(file), done.stderr)
 
+    @unittest.skipIf(shutil.which('c++') is None, 'no compiler')
+    def test_plugins_with_faults_are_refused_in_one_line(self):
+        head = ('struct Info { int version; const char* name; const char* text; void (*run)(); };\n'
+                '#include <stdexcept>\n'
+                'extern "C" __attribute__((visibility("default"))) const Info hexspline_plugin;\n')
+        entry = 'extern "C" const Info hexspline_plugin = {VERSION, "faulty", "1.0", RUN};\n'
+        version = 1
+        for name, code, words in (
+                ('version', entry.replace('VERSION', '999').replace('RUN', 'nullptr'), 'interface 999'),
+                ('nothing', entry.replace('VERSION', str(version)).replace('RUN', 'nullptr'), 'registers nothing'),
+                ('throws', 'static void run() { throw std::runtime_error("no luck"); }\n' +
+                 entry.replace('VERSION', str(version)).replace('RUN', 'run'), 'no luck'),
+                ('throws_a_number', 'static void run() { throw 42; }\n' + entry.replace('VERSION', str(version)).replace('RUN', 'run'),
+                 'failed to register'),
+                ('symbol', 'void elsewhere();\nstatic void run() { elsewhere(); }\n' +
+                 entry.replace('VERSION', str(version)).replace('RUN', 'run'), 'elsewhere'),
+                ('no_entry', 'int nothing = 0;\n', 'does not export')):
+            source, library = self.folder / f'{name}.cpp', self.folder / f'{name}.so'
+            source.write_text((head if name != 'no_entry' else '') + code)
+            subprocess.run(['c++', '-shared', '-fPIC', '-o', library, source], check=True)
+            with self.subTest(fault=name):
+                done = run('plugins', '--plugin', library)
+                self.assertEqual(done.returncode, 3, done.stderr)
+                self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+                self.assertIn(str(library), done.stderr)
+                self.assertIn(words, done.stderr)
+
     def test_it_cannot_be_loaded_twice(self):
         copy = self.folder / 'copy.so'
         shutil.copy(PLUGIN, copy)

@@ -68,6 +68,20 @@ Gate counting_gate(std::string name, std::string demand, std::size_t count) {
     return {std::move(name), std::move(demand), std::to_string(count), count == 0, count, {}};
 }
 
+Gate bezier_gate(const spline::JacobianReport& report, std::size_t worst) {
+    Gate gate;
+    gate.name = "bezier-validity";
+    gate.demand = "the Jacobian of every element is proved positive";
+    gate.found = fmt::format("{} proved positive, {} negative, {} undecided", report.positive,
+                             report.negative.size(), report.undecided.size());
+    gate.passed = report.proved();
+    gate.bad = report.negative.size() + report.undecided.size();
+    for (const auto* list : {&report.negative, &report.undecided})
+        for (const std::int64_t element : *list)
+            if (gate.cells.size() < worst) gate.cells.emplace_back(static_cast<std::size_t>(element));
+    return gate;
+}
+
 std::size_t count_defects(const hex::MeshDefects& defects, std::string_view kind) {
     if (kind == "duplicate-nodes") return defects.duplicates.size();
     if (kind == "unused-nodes") return defects.unused.size();
@@ -139,7 +153,9 @@ std::string short_number(double value) {
 
 std::vector<Gate> evaluate_gates(const Demands& demands, const Findings& findings, std::size_t worst) {
     std::vector<Gate> gates;
-    if (!demands.limits_every_element(HexMetric::scaled_jacobian)) {
+    if (findings.bezier) {
+        gates.push_back(bezier_gate(*findings.bezier, worst));
+    } else if (!demands.limits_every_element(HexMetric::scaled_jacobian)) {
         Gate gate = counting_gate("inverted", "no inverted element", findings.inverted.size());
         const auto listed = std::min(worst, findings.inverted.size());
         gate.cells.assign(findings.inverted.begin(),
@@ -162,6 +178,7 @@ std::vector<Gate> evaluate_gates(const Demands& demands, const Findings& finding
         gate.bad = gate.passed ? 0 : 1;
         gates.push_back(std::move(gate));
     }
+    if (findings.bezier) return gates;
     for (const std::string& kind : demands.forbidden)
         gates.push_back(counting_gate(kind, "none", count_defects(findings.defects, kind)));
     return gates;

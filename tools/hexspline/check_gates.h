@@ -8,6 +8,7 @@
 #include <hex/quality/mesh_defects.h>
 #include <hex/quality/scaled_jacobian.h>
 #include <hex/quality/surface_distance.h>
+#include <spline/jacobian.h>
 
 #include <map>
 
@@ -26,6 +27,9 @@ struct Findings {
     std::map<hex::HexMetric, Measured> metrics;
     hex::MeshDefects defects;
     std::optional<hex::SurfaceDistance> distance;
+    /// Of a BEXT file: whether its elements are proved not to fold. The mesh is then that of the elements'
+    /// corners, and says nothing about nodes and boundary.
+    std::optional<spline::JacobianReport> bezier;
 };
 
 /// One demand and how it turned out.

@@ -171,7 +171,14 @@ std::string table_text(const Outcome& outcome) {
                             centre.x(), centre.y(), centre.z());
     }
     if (findings.inverted.size() > 8) text += fmt::format("  ... ({} in all)\n", findings.inverted.size());
-    text += defects_text(findings.defects);
+    if (const auto& b = findings.bezier) {
+        text += fmt::format(
+            "Bezier elements       {}: Jacobian proved positive for {}, negative in {}, undecided for {}\n",
+            b->elements.size(), b->positive, b->negative.size(), b->undecided.size());
+        if (!b->negative.empty()) text += "  " + spline::describe_negative(*b) + "\n";
+    } else {
+        text += defects_text(findings.defects);
+    }
     if (const auto& d = findings.distance) {
         text += fmt::format("distance to surface   largest {:.4g} %, mean {:.4g} % of its diagonal\n",
                             d->percent(d->to_surface_max), d->percent(d->to_surface_mean));
@@ -245,6 +252,20 @@ Json report_json(const Outcome& outcome) {
                                       {"from_surface_max_percent", d->percent(d->from_surface_max)},
                                       {"from_surface_mean_percent", d->percent(d->from_surface_mean)},
                                       {"diagonal", d->diagonal}};
+    if (const auto& b = findings.bezier) {
+        const auto first = [](const std::vector<std::int64_t>& list) {
+            return std::vector(list.begin(),
+                               list.begin() + static_cast<std::ptrdiff_t>(std::min(most_ids, list.size())));
+        };
+        report["bezier"] = {{"elements", b->elements.size()},
+                            {"proved_positive", b->positive},
+                            {"singular", b->singular},
+                            {"negative", b->negative.size()},
+                            {"negative_ids", first(b->negative)},
+                            {"undecided", b->undecided.size()},
+                            {"undecided_ids", first(b->undecided)},
+                            {"lower_bound", b->lower}};
+    }
     Json gates = Json::array();
     for (const Gate& gate : outcome.gates)
         gates.push_back({{"name", gate.name},

@@ -57,6 +57,10 @@ int dispatch(const std::vector<std::string>& arguments) {
         } catch (const std::exception& problem) {
             return report(name, std::string("internal error: ") + problem.what(),
                           hex::exit_code(hex::ErrorKind::no_result));
+        } catch (...) {
+            // A plug-in may throw anything.
+            return report(name, "internal error: an exception of unknown kind",
+                          hex::exit_code(hex::ErrorKind::no_result));
         }
     }
     return report("", "unknown subcommand '" + name + "'; see hexspline --help", 2);

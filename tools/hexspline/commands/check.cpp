@@ -11,6 +11,8 @@
 #include <hex/base/error.h>
 #include <hex/io/hex_file.h>
 #include <hex/io/output_file.h>
+#include <spline/io/bext.h>
+#include <spline/jacobian.h>
 
 #include <fmt/format.h>
 
@@ -24,7 +26,7 @@ using hex::HexMetric;
 using Strings = std::vector<std::string>;
 
 void describe(CommandLine& line) {
-    line.add_input("hexahedral mesh");
+    line.add_input("hexahedral mesh, or a spline as .bext");
     line.add("min-scaled-jacobian", value<double>("X"), "the same as --metric scaled_jacobian:X");
     line.add(
         "metric", value<Strings>("NAME[:MIN[:MAX]]")->composing(),
@@ -94,8 +96,9 @@ std::set<HexMetric> metrics_of(const Demands& demands) {
     return metrics;
 }
 
-Findings examine(const CommandLine& line, const hex::HexMesh& mesh, const Demands& demands,
-                 std::size_t worst) {
+/// `corners_only`: the mesh is that of the corners of Bezier elements, without shared vertices.
+Findings examine(const CommandLine& line, const hex::HexMesh& mesh, const Demands& demands, std::size_t worst,
+                 bool corners_only) {
     const hex::Context& context = line.context();
     Findings findings;
     for (const HexMetric metric : metrics_of(demands)) {
@@ -109,10 +112,32 @@ Findings examine(const CommandLine& line, const hex::HexMesh& mesh, const Demand
     findings.summary = hex::summarize(mesh, scaled, context);
     for (const hex::CellId c : mesh.cells())
         if (scaled[c.index()] <= 0.0) findings.inverted.push_back(c);
+    if (corners_only) return findings;
     findings.defects = hex::find_defects(mesh, line.get<double>("duplicate-tolerance"), context);
     if (demands.surface && !mesh.empty())
         findings.distance = hex::surface_distance(mesh, load_triangles(line, *demands.surface), context);
     return findings;
+}
+
+bool is_bext(const std::filesystem::path& path) {
+    std::string extension = path.extension().string();
+    for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    return extension == ".bext" || extension == ".bxt";
+}
+
+/// The corners of the Bezier elements as hexahedra, each with vertices of its own.
+hex::HexMesh corner_mesh(const spline::BezierSpline& spline) {
+    const auto bezier = spline::bezier_points(spline);
+    std::vector<hex::Vec3> points;
+    std::vector<hex::HexCell> cells(spline.element_count());
+    for (std::size_t e = 0; e < cells.size(); ++e) {
+        for (std::size_t c = 0; c < 8; ++c) {
+            cells[e][c] = hex::VertexId(points.size());
+            const auto local = static_cast<std::size_t>(hex::hexahedron::bezier_corner[c]);
+            points.emplace_back(bezier[spline.elements[e][local]].head<3>());
+        }
+    }
+    return {std::move(points), std::move(cells)};
 }
 
 void write_vtu(const std::filesystem::path& file, const Outcome& outcome) {
@@ -148,8 +173,17 @@ int run(CommandLine& line) {
     line.require_range("baseline-tolerance", line.get<double>("baseline-tolerance"), 0.0, 1e30);
     const auto worst = static_cast<std::size_t>(line.get<int>("worst"));
     const Demands demands = demands_of(line);
-    const hex::HexMesh mesh = load_hexahedra(line, line.input());
-    Outcome outcome{line.input().string(), mesh, examine(line, mesh, demands, worst), {}};
+    hex::HexMesh mesh;
+    std::optional<spline::JacobianReport> bezier;
+    if (is_bext(line.input())) {
+        const spline::BezierSpline spline = spline::io::read_bext(line.input());
+        bezier = spline::certify(spline, {}, line.context());
+        mesh = corner_mesh(spline);
+    } else {
+        mesh = load_hexahedra(line, line.input());
+    }
+    Outcome outcome{line.input().string(), mesh, examine(line, mesh, demands, worst, bezier.has_value()), {}};
+    outcome.findings.bezier = std::move(bezier);
     outcome.gates = evaluate_gates(demands, outcome.findings, worst);
     if (demands.baseline)
         for (Gate& gate : compare_with_baseline(*demands.baseline, line.get<double>("baseline-tolerance"),
@@ -185,6 +219,7 @@ const RegisterCommand registered(
      .order = 60,
      .summary = "measure a hexahedral mesh and fail when it is not good enough",
      .description = "Without limits for the scaled Jacobian, an inverted element fails.\n"
+                    "Of a spline, the Jacobian of every Bezier element has to be proved positive.\n"
                     "Exit code 0: good; 1: not as good as asked for.",
      .sample_runs =
          {"hexspline check part.vtk",

@@ -1,0 +1,33 @@
+# cmake -DBUILD_DIR= -DWORK_DIR= -DVERSION= -P package_test.cmake
+# cpack makes a Debian package with everything in its place, and its program runs from where it was unpacked.
+function(run)
+    execute_process(COMMAND ${ARGV} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE errors)
+    if(NOT result EQUAL 0)
+        message(FATAL_ERROR "failed: ${ARGV}\n${output}${errors}")
+    endif()
+    set(output "${output}" PARENT_SCOPE)
+endfunction()
+
+file(REMOVE_RECURSE "${WORK_DIR}")
+file(MAKE_DIRECTORY "${WORK_DIR}")
+run(cpack -G DEB --config "${BUILD_DIR}/CPackConfig.cmake" -B "${WORK_DIR}")
+file(GLOB package "${WORK_DIR}/hexspline_${VERSION}_*.deb")
+if(NOT package)
+    message(FATAL_ERROR "cpack made no package")
+endif()
+run(dpkg-deb --info "${package}")
+if(NOT output MATCHES "Depends: .*libtbb")
+    message(FATAL_ERROR "the package does not ask for the libraries that it needs\n${output}")
+endif()
+run(dpkg-deb --extract "${package}" "${WORK_DIR}/unpacked")
+foreach(file bin/hexspline lib/libhexspline_hex.so include/hex/volume/hex_mesh.h include/spline/spline.h
+             lib/cmake/hexspline/hexspline-config.cmake share/man/man1/hexspline.1 share/man/man1/hexspline-check.1
+             share/bash-completion/completions/hexspline share/zsh/vendor-completions/_hexspline share/doc/hexspline/README.md)
+    if(NOT EXISTS "${WORK_DIR}/unpacked/usr/${file}")
+        message(FATAL_ERROR "the package has no /usr/${file}")
+    endif()
+endforeach()
+run("${WORK_DIR}/unpacked/usr/bin/hexspline" --version)
+if(NOT output STREQUAL "hexspline ${VERSION}\n")
+    message(FATAL_ERROR "the packaged program says ${output}")
+endif()
