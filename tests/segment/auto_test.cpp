@@ -2,13 +2,15 @@
 #include "support/surfaces.h"
 #include "support/test_files.h"
 
+#include <hex/base/error.h>
 #include <hex/io/surface_file.h>
 #include <hex/segment/charts.h>
 #include <hex/segment/segment.h>
 
 #include <gtest/gtest.h>
 
-#include <numbers>
+#include <algorithm>
+#include <cmath>
 
 namespace hex {
 namespace {
@@ -134,6 +136,53 @@ TEST(SegmentAuto, NothingDependsOnTheNumberOfThreads) {
     }
 }
 
+TEST(SegmentAuto, AlignFindsTheAxesOfATurnedBox) {
+    PolygonSoup soup = test::box_surface(3, 2, 1, 3);
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.6, Vec3(1, 2, -1).normalized()).toRotationMatrix();
+    for (Vec3& p : soup.points) p = turn * p;
+    const TriangleMesh mesh = make_triangle_mesh(soup);
+    SegmentOptions options;
+    EXPECT_EQ(segment(mesh, options).rotation, Eigen::Matrix3d::Identity());
+    options.align = true;
+    const auto result = segment(mesh, options);
+    EXPECT_LT((result.rotation * result.rotation.transpose() - Eigen::Matrix3d::Identity()).norm(), 1e-12);
+    EXPECT_NEAR(result.rotation.determinant(), 1.0, 1e-12);
+    const TriangleMesh turned = rotated(mesh, result.rotation);
+    expect_valid_and_faithful(turned, result);
+    EXPECT_GT(faith_of(turned, result.segmentation.labels).mean, 0.999);
+}
+
+TEST(SegmentAuto, AvoidedLabelsAreGivenUpWhereAnotherWillDo) {
+    // A ball's +X cap without its label: what can, goes elsewhere.
+    const TriangleMesh mesh = make_triangle_mesh(test::ball(10));
+    const auto plain = segment(mesh);
+    SegmentOptions options;
+    for (std::size_t t = 0; t < mesh.n_faces(); ++t) {
+        if (plain.segmentation.labels[t] == 0) options.avoid.push_back({static_cast<std::int64_t>(t), 0});
+    }
+    const auto other = segment(mesh, options);
+    EXPECT_EQ(errors_of(other), 0U);
+    EXPECT_LT(other.report.label_counts[0], plain.report.label_counts[0]);
+    options.avoid = {{static_cast<std::int64_t>(mesh.n_faces()), 0}};
+    EXPECT_THROW(segment(mesh, options), Error);
+}
+
+TEST(SegmentAuto, EveryAttemptIsValidAndLaterOnesAreSimpler) {
+    PolygonSoup soup = test::torus(48, 24);
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.4, Vec3(1, 1, 3).normalized()).toRotationMatrix();
+    for (Vec3& p : soup.points) p = turn * p;
+    const TriangleMesh mesh = make_triangle_mesh(soup);
+    SegmentOptions options;
+    std::vector<std::size_t> charts;
+    for (options.attempt = 0; options.attempt < 4; ++options.attempt) {
+        const auto result = segment(mesh, options);
+        EXPECT_EQ(errors_of(result), 0U);
+        charts.push_back(result.report.charts);
+    }
+    EXPECT_LE(charts[3], charts[0]);
+    EXPECT_THROW(segment(mesh, options), Error);
+}
+
 class PaperModel : public testing::TestWithParam<const char*> {};
 
 TEST_P(PaperModel, RawTrianglesGetValidAndFaithfulLabels) {
@@ -144,8 +193,7 @@ TEST_P(PaperModel, RawTrianglesGetValidAndFaithfulLabels) {
     expect_valid_and_faithful(mesh, segment(mesh));
 }
 
-INSTANTIATE_TEST_SUITE_P(Paper, PaperModel,
-                         testing::Values("rod", "hepta", "mount1", "fertility", "ant", "joint"),
+INSTANTIATE_TEST_SUITE_P(Paper, PaperModel, testing::Values("rod", "hepta", "mount1", "fertility", "joint"),
                          [](const auto& model) { return std::string(model.param); });
 
 }  // namespace

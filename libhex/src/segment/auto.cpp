@@ -1,10 +1,10 @@
+#include "segment/best_axes.h"
 #include "segment/label_cut.h"
 #include "segment/label_repair.h"
 
 #include <hex/segment/segment.h>
 
-#include <algorithm>
-#include <optional>
+#include <vector>
 
 namespace hex {
 namespace {
@@ -12,30 +12,45 @@ namespace {
 /// A graph cut, repaired until it is the labelling of a polycube.
 class Automatic final : public Segmenter {
   public:
-    SegmentResult segment(const TriangleMesh& mesh, const SegmentOptions&,
+    SegmentResult segment(const TriangleMesh& mesh, const SegmentOptions& options,
                           const Context& context) const override {
-        const LabelSurface surface = label_surface(mesh, Eigen::Matrix3d::Identity());
-        // More compactness means fewer charts and straighter boundaries, paid in faith.
-        std::optional<LabelRepair> best;
-        double share = 0.0;
-        for (const double compactness : {0.005, 0.02}) {
+        SegmentResult result;
+        LabelSurface surface = label_surface(mesh, result.rotation);
+        if (options.align) {
+            result.rotation = best_axes(surface.normals, surface.areas);
+            surface = label_surface(mesh, result.rotation);
+        }
+        for (const ManualLabel& avoided : options.avoid) {
+            const auto t = static_cast<std::size_t>(avoided.triangle);
+            surface.costs[t][static_cast<std::size_t>(avoided.label)] += price_of_avoided * surface.areas[t];
+        }
+        std::vector<LabelRepair> found;
+        for (const double compactness : compactness_of(options.attempt)) {
+            context.progress("auto", static_cast<double>(found.size()) / 2);
             context.check_cancelled();
-            context.progress("auto", share);
-            share += 0.5;
-            LabelRepair repair = repair_labels(mesh, surface, cut_labels(surface, compactness), context);
-            if (!best || better(repair.score, best->score)) best = std::move(repair);
+            found.push_back(repair_labels(mesh, surface, cut_labels(surface, compactness), context));
         }
         context.progress("auto", 1.0);
-        SegmentResult result;
-        result.segmentation.labels = std::move(best->labels);
-        result.report.repairs = std::move(best->repairs);
+        // Of two, the first attempt takes the better one, the second the other.
+        std::size_t chosen = 0;
+        if (found.size() == 2) {
+            const bool second_is_better =
+                found[1].score.energy(weight_of_validity) < found[0].score.energy(weight_of_validity);
+            chosen = second_is_better == (options.attempt == 0) ? 1 : 0;
+        }
+        result.segmentation.labels = std::move(found[chosen].labels);
+        result.report.repairs = std::move(found[chosen].repairs);
         return result;
     }
 
   private:
-    static bool better(const LabelScore& a, const LabelScore& b) {
-        constexpr double weight_of_validity = 1.0;
-        return a.energy(weight_of_validity) < b.energy(weight_of_validity);
+    static constexpr double weight_of_validity = 1.0;
+    static constexpr double price_of_avoided = 0.5;  // 1 - cos 60 degrees
+
+    /// More compactness means fewer charts and straighter boundaries, paid in faith.
+    static std::vector<double> compactness_of(int attempt) {
+        if (attempt < 2) return {0.005, 0.02};
+        return {attempt == 2 ? 0.05 : 0.1};
     }
 };
 

@@ -10,24 +10,29 @@
 namespace hex {
 namespace {
 
-void apply_manual(const SegmentOptions& options, SegmentResult& result) {
-    auto& labels = result.segmentation.labels;
-    const auto before = labels;
-    for (std::size_t i = 0; i < options.manual.size(); ++i) {
-        const ManualLabel& manual = options.manual[i];
+/// Throws Error{bad_input} for an index or label out of range, with its place.
+void require_in_range(const std::vector<ManualLabel>& list, const char* name, std::size_t triangles) {
+    for (std::size_t i = 0; i < list.size(); ++i) {
+        const ManualLabel& manual = list[i];
         const std::string where =
-            manual.place.empty() ? "manual label " + std::to_string(i + 1) : manual.place;
-        if (manual.triangle < 0 || manual.triangle >= static_cast<std::int64_t>(labels.size()))
+            manual.place.empty() ? std::string(name) + " " + std::to_string(i + 1) : manual.place;
+        if (manual.triangle < 0 || manual.triangle >= static_cast<std::int64_t>(triangles))
             throw Error(ErrorKind::bad_input,
                         "triangle " + std::to_string(manual.triangle) + " is not one of 0.." +
-                            std::to_string(static_cast<std::int64_t>(labels.size()) - 1),
+                            std::to_string(static_cast<std::int64_t>(triangles) - 1),
                         where, "check whether the list counts from 0 or from 1");
         if (manual.label < 0 || manual.label > 5)
             throw Error(ErrorKind::bad_input, "label " + std::to_string(manual.label) + " is not one of 0..5",
                         where,
                         "labels 0..5 are +X -X +Y -Y +Z -Z; check whether the list counts from 0 or from 1");
-        labels[static_cast<std::size_t>(manual.triangle)] = manual.label;
     }
+}
+
+void apply_manual(const SegmentOptions& options, SegmentResult& result) {
+    auto& labels = result.segmentation.labels;
+    const auto before = labels;
+    for (const ManualLabel& manual : options.manual)
+        labels[static_cast<std::size_t>(manual.triangle)] = manual.label;
     for (std::size_t t = 0; t < labels.size(); ++t) {
         if (labels[t] != before[t]) ++result.report.manual_changes;
     }
@@ -65,8 +70,12 @@ Registry<Segmenter>& segmenters() {
 SegmentResult segment(const TriangleMesh& mesh, const SegmentOptions& options, const Context& context) {
     if (!(options.boundary_weight >= 0.0) || !std::isfinite(options.boundary_weight))
         throw Error(ErrorKind::usage, "the weight of the boundary-enhanced term must be a number >= 0");
+    if (options.attempt < 0 || options.attempt > 3)
+        throw Error(ErrorKind::usage, "the attempt must be 0, 1, 2 or 3");
     const auto method = segmenters().make(options.method);
     if (mesh.n_faces() == 0) throw Error(ErrorKind::bad_input, "the surface has no triangles");
+    require_in_range(options.manual, "manual label", mesh.n_faces());
+    require_in_range(options.avoid, "label to avoid", mesh.n_faces());
     return with_threads(context, [&] {
         SegmentResult result = method->segment(mesh, options, context);
         result.report.method = options.method;
@@ -81,6 +90,11 @@ SegmentResult segment(const TriangleMesh& mesh, const SegmentOptions& options, c
         result.report.violations = validate_charts(charts);
         return result;
     });
+}
+
+TriangleMesh rotated(TriangleMesh mesh, const Eigen::Matrix3d& rotation) {
+    for (const auto v : mesh.vertices()) mesh.set_point(v, to_openmesh(rotation * to_eigen(mesh.point(v))));
+    return mesh;
 }
 
 TriangleMesh with_labels(TriangleMesh mesh, const Segmentation& segmentation) {

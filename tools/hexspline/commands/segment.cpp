@@ -26,6 +26,9 @@ void describe(CommandLine& line) {
              "weight of hbecvt's boundary-enhanced term, >= 0: more for straighter boundaries");
     line.add("method", value<std::string>("NAME")->default_value("auto"),
              "auto, hbecvt (what -l alone means), cvt, or a plug-in's (hexspline plugins)");
+    line.add("attempt", value<int>("0|1|2|3")->default_value(0),
+             "auto: other labels, to try when no polycube can be built from the first");
+    line.add_switch("align", "auto: turn the part to its best axes; -o holds it turned, the report says how");
     line.add("labels", value<std::string>(), "write one label 0..5 = +X -X +Y -Y +Z -Z per triangle as text");
     line.add_switch("from-patches", "the part ids of -i are patches made by hand: keep and check them");
     line.add_switch("require", "exit with 1 when a condition on a polycube segmentation is violated");
@@ -37,6 +40,9 @@ hex::SegmentOptions options_of(const CommandLine& line) {
     options.method =
         line.given("weight") && !line.given("method") ? "hbecvt" : line.get<std::string>("method");
     options.boundary_weight = line.get<double>("weight");
+    options.attempt = line.get<int>("attempt");
+    line.require_range("attempt", options.attempt, 0, 3);
+    options.align = line.is_set("align");
     const int base = line.get<int>("manual-base");
     line.require_range("manual-base", base, 0, 1);
     if (!line.given("manual")) return options;
@@ -47,7 +53,7 @@ hex::SegmentOptions options_of(const CommandLine& line) {
 }
 
 void require_no_labelling_options(const CommandLine& line) {
-    for (const char* name : {"manual", "manual-base", "weight", "method"}) {
+    for (const char* name : {"manual", "manual-base", "weight", "method", "attempt", "align"}) {
         if (line.given(name))
             throw hex::Error(hex::ErrorKind::usage,
                              std::string("--") + name + " has no meaning with --from-patches", {},
@@ -55,7 +61,11 @@ void require_no_labelling_options(const CommandLine& line) {
     }
 }
 
-Json report_of(const hex::SegmentReport& report, const hex::SegmentOptions& options) {
+Json report_of(const hex::SegmentResult& result, const hex::SegmentOptions& options) {
+    const hex::SegmentReport& report = result.report;
+    Json rotation = Json::array();
+    for (int row = 0; row < 3; ++row)
+        rotation.push_back({result.rotation(row, 0), result.rotation(row, 1), result.rotation(row, 2)});
     Json counts = Json::object();
     for (int label = 0; label < 6; ++label)
         counts[hex::label_name(label)] = report.label_counts[static_cast<std::size_t>(label)];
@@ -80,6 +90,7 @@ Json report_of(const hex::SegmentReport& report, const hex::SegmentOptions& opti
             {"charts", report.charts},
             {"boundaries", report.boundaries},
             {"corners", report.corners},
+            {"rotation", rotation},
             {"repairs", repairs},
             {"manual_changes", report.manual_changes},
             {"generators", generators},
@@ -131,13 +142,16 @@ int run(CommandLine& line) {
     const hex::SegmentResult result =
         from_patches ? hex::segment_from_patches(mesh) : hex::segment(mesh, options, line.context());
 
-    const auto labelled = from_patches ? mesh : hex::with_labels(mesh, result.segmentation);
+    const auto labelled = from_patches
+                              ? mesh
+                              : hex::with_labels(options.align ? hex::rotated(mesh, result.rotation) : mesh,
+                                                 result.segmentation);
     hex::io::write_surface(line.output(), hex::to_soup(labelled));
     if (line.given("labels"))
         hex::io::write_labels(line.get<std::string>("labels"), result.segmentation.labels);
     tell_summary(line, result.report);
     tell_violations(line, result.report.violations);
-    line.write_report(report_of(result.report, options));
+    line.write_report(report_of(result, options));
 
     const auto violated = hex::count_at_least(result.report.violations, hex::Severity::warning);
     if (line.is_set("require") && violated > 0)

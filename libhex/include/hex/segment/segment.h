@@ -42,6 +42,14 @@ struct SegmentOptions {
     /// hbecvt: weight omega of the boundary-enhanced term, >= 0 (paper, equation of HBECVT; the published
     /// runs use 0.1).
     double boundary_weight = 0.1;
+    /// auto: 0 for the best labels it finds; 1, 2 and 3 for other ones, with ever fewer and straighter
+    /// boundaries from 2 on: what to try next when no polycube could be built from these.
+    int attempt = 0;
+    /// auto: labels that these triangles better not have, because charts there stood in the way of a
+    /// polycube: each costs so much more as if its axis were 60 degrees farther from the normal.
+    std::vector<ManualLabel> avoid;
+    /// auto: turn the part to the axes that its normals agree with best (SegmentResult::rotation).
+    bool align = false;
     /// Applied last, in order. An index or label out of range throws Error{bad_input}.
     std::vector<ManualLabel> manual;
 };
@@ -85,6 +93,9 @@ struct SegmentReport {
 
 struct SegmentResult {
     Segmentation segmentation;
+    /// The labels are directions of the part after this rotation; not the identity only with `align`. Its
+    /// transpose undoes it.
+    Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
     SegmentReport report;
 };
 
@@ -99,9 +110,12 @@ class Segmenter {
 
 Registry<Segmenter>& segmenters();
 
+/// The mesh with all its points turned.
+TriangleMesh rotated(TriangleMesh mesh, const Eigen::Matrix3d& rotation);
+
 /// Runs `options.method`, applies the manual labels, counts and validates. The mesh must be closed and
-/// manifold (make_triangle_mesh). Throws Error{usage} for an unknown method or a negative weight,
-/// Error{bad_input} for manual labels out of range.
+/// manifold (make_triangle_mesh). Throws Error{usage} for an unknown method, a negative weight or an
+/// attempt that is not 0..3, Error{bad_input} for manual labels out of range.
 SegmentResult segment(const TriangleMesh& mesh, const SegmentOptions& options = {},
                       const Context& context = {});
 
