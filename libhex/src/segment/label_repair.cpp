@@ -90,11 +90,16 @@ int chart_across(const LabelCharts& charts, int axis, int vertex) {
 /// The boundaries that contradict each other about the order of charts.
 std::vector<Place> contrary_places(const LabelSurface& surface, const LabelCharts& charts) {
     ChartOrder order;
+    std::vector<Place> closed;  // these have no corner at all
     for (std::size_t b = 0; b < charts.boundaries.size(); ++b) {
         const LabelBoundary& boundary = charts.boundaries[b];
         const int axis = boundary_axis(charts.charts[at(boundary.charts[0])].label,
                                        charts.charts[at(boundary.charts[1])].label);
         if (axis < 0) continue;
+        if (boundary.vertices.front() == boundary.vertices.back() &&
+            chart_across(charts, axis, boundary.vertices.front()) < 0)
+            closed.push_back(
+                {Place::Kind::contrary_boundary, static_cast<int>(b), boundary.triangles.size()});
         int first = boundary.vertices.front();
         int last = boundary.vertices.back();
         if (surface.points[at(last)][axis] < surface.points[at(first)][axis]) std::swap(first, last);
@@ -104,7 +109,7 @@ std::vector<Place> contrary_places(const LabelSurface& surface, const LabelChart
         if (before >= 0 && after >= 0 && (before == after || rise > surface.flat))
             order.add({before, after, static_cast<int>(b)});
     }
-    std::vector<Place> places;
+    std::vector<Place> places = std::move(closed);
     for (const ChartOrder::Arc& arc : order.conflicts())
         places.push_back({Place::Kind::contrary_boundary, arc.boundary,
                           charts.boundaries[at(arc.boundary)].triangles.size()});
