@@ -91,6 +91,7 @@ struct SnapTargets::State {
     std::vector<std::unique_ptr<Component>> components;
     std::vector<std::uint32_t> home;  // component of each boundary vertex
     std::vector<double> sign;         // -1: the surface is oriented against the boundary there
+    std::vector<std::uint32_t> last;  // triangle found last for each vertex: the next search starts there
 
     void fill(Bin& bin) const {
         if (bin.triangles.empty()) return;
@@ -166,6 +167,7 @@ struct SnapTargets::State {
         }
         home.assign(mesh.vertex_count(), 0);
         sign.assign(mesh.vertex_count(), 1.0);
+        last.assign(mesh.vertex_count(), 0);
         for (const VertexId v : boundary.boundary_vertices) {
             const std::uint32_t own = piece[boundary.vertex_quads[v.index()].front().index()];
             const auto& ballot = votes[own];
@@ -191,13 +193,17 @@ double SnapTargets::diagonal() const {
     return state_->surface.diagonal;
 }
 
-/// The closest point that faces the way of `normal`; zero: any will do. Its axis points out of the mesh.
+/// The closest point that faces the way of `normal`; zero: any will do. Its axis points out of the mesh. To
+/// be called by one thread for each vertex.
 SnapTarget SnapTargets::closest(VertexId v, const Vec3& p, const Vec3& normal) const {
     const Component& own = *state_->components[state_->home[v.index()]];
     const double sign = state_->sign[v.index()];
+    std::uint32_t& last = state_->last[v.index()];
     const auto target = [&](const Bin& bin) {
-        const auto found = bin.search->closest(p, 0);
-        return SnapTarget{found.point, sign * state_->surface.normals[bin.triangles[found.item]]};
+        const auto at = std::lower_bound(bin.triangles.begin(), bin.triangles.end() - 1, last);
+        const auto found = bin.search->closest(p, static_cast<std::uint32_t>(at - bin.triangles.begin()));
+        last = bin.triangles[found.item];
+        return SnapTarget{found.point, sign * state_->surface.normals[last]};
     };
     const SnapTarget nearest = target(own.all);
     if (normal.isZero(0.0) || nearest.axis.dot(normal) > same_way) return nearest;
