@@ -91,7 +91,8 @@ struct SnapTargets::State {
     std::vector<std::unique_ptr<Component>> components;
     std::vector<std::uint32_t> home;  // component of each boundary vertex
     std::vector<double> sign;         // -1: the surface is oriented against the boundary there
-    std::vector<std::uint32_t> last;  // triangle found last for each vertex: the next search starts there
+    std::vector<std::uint32_t>
+        last;  // item of `all` found last for each vertex: where the next search starts
 
     void fill(Bin& bin) const {
         if (bin.triangles.empty()) return;
@@ -198,24 +199,22 @@ double SnapTargets::diagonal() const {
 SnapTarget SnapTargets::closest(VertexId v, const Vec3& p, const Vec3& normal) const {
     const Component& own = *state_->components[state_->home[v.index()]];
     const double sign = state_->sign[v.index()];
-    std::uint32_t& last = state_->last[v.index()];
-    const auto target = [&](const Bin& bin) {
-        const auto at = std::lower_bound(bin.triangles.begin(), bin.triangles.end() - 1, last);
-        const auto found = bin.search->closest(p, static_cast<std::uint32_t>(at - bin.triangles.begin()));
-        last = bin.triangles[found.item];
-        return SnapTarget{found.point, sign * state_->surface.normals[last]};
+    const auto target = [&](const Bin& bin, const TriangleSearch::Answer& answer) {
+        return SnapTarget{answer.point, sign * state_->surface.normals[bin.triangles[answer.item]]};
     };
-    const SnapTarget nearest = target(own.all);
+    std::uint32_t& last = state_->last[v.index()];
+    const TriangleSearch::Answer found = own.all.search->closest(p, last);
+    last = found.item;
+    const SnapTarget nearest = target(own.all, found);
     if (normal.isZero(0.0) || nearest.axis.dot(normal) > same_way) return nearest;
     const Vec3 facing = sign * normal;
     std::size_t direction = 0;
     for (std::size_t d = 1; d < own.facing.size(); ++d)
         if (state_->directions[d].dot(facing) > state_->directions[direction].dot(facing)) direction = d;
-    if (own.facing[direction].triangles.empty()) return nearest;
-    const SnapTarget other = target(own.facing[direction]);
-    const double far = (other.point - p).norm();
-    const double near = (nearest.point - p).norm();
-    return far <= much_farther * near ? other : nearest;
+    const Bin& bin = own.facing[direction];
+    if (bin.triangles.empty()) return nearest;
+    const auto other = bin.search->closest_within(p, much_farther * (nearest.point - p).norm());
+    return other ? target(bin, *other) : nearest;
 }
 
 SnapTarget SnapTargets::target_of(const HexMesh& mesh, VertexId v) const {

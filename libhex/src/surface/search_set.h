@@ -11,6 +11,7 @@
 #include <CGAL/Simple_cartesian.h>
 
 #include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -41,6 +42,16 @@ class ItemSearch {
         const auto found = tree_.closest_point_and_primitive(query, std::pair(nearby, start));
         return {{found.first.x(), found.first.y(), found.first.z()},
                 static_cast<std::uint32_t>(found.second - items_.begin())};
+    }
+
+    /// Closest point to p, if it is nearer than `radius`. Much faster than `closest` from a bad start.
+    std::optional<Answer> closest_within(const Vec3& p, double radius) const {
+        const SearchKernel::Point_3 query(p.x(), p.y(), p.z());
+        const SearchKernel::Point_3 limit(p.x() + radius, p.y(), p.z());
+        const auto found = tree_.closest_point_and_primitive(query, std::pair(limit, items_.begin()));
+        if (found.first == limit) return {};
+        return Answer{{found.first.x(), found.first.y(), found.first.z()},
+                      static_cast<std::uint32_t>(found.second - items_.begin())};
     }
 
   private:
