@@ -1,0 +1,392 @@
+#include "hexspline/chain.h"
+
+#include "hexspline/element_size.h"
+#include "hexspline/inputs.h"
+
+#include <hex/base/error.h>
+#include <hex/improve/improve.h>
+#include <hex/io/hex_file.h>
+#include <hex/io/list_file.h>
+#include <hex/io/output_file.h>
+#include <hex/io/surface_file.h>
+#include <hex/map/map.h>
+#include <hex/polycube/blocks.h>
+#include <hex/polycube/polycube.h>
+#include <hex/polycube/voxel.h>
+#include <hex/quality/surface_distance.h>
+#include <spline/io/bext.h>
+#include <spline/io/bezier_vtu.h>
+#include <spline/spline.h>
+
+#include <array>
+#include <chrono>
+#include <fstream>
+#include <sstream>
+
+namespace cli {
+namespace {
+
+constexpr std::array<const char*, 5> stage_names = {"segment", "polycube", "map", "improve", "spline"};
+constexpr std::size_t polycube_stage = 1;
+
+/// Hexahedra that the route `labelling` starts from, the factor by which it takes more, and where it ends.
+constexpr double first_target = 1200;
+constexpr double target_growth = 1.5;
+constexpr double last_target = 9200;
+/// It takes more while the mesh and the surface are farther apart than this, in percent of the diagonal.
+constexpr double wished_distance = 1.2;
+
+std::size_t stage_index(const std::string& option, const std::string& name) {
+    for (std::size_t i = 0; i < stage_names.size(); ++i) {
+        if (name == stage_names[i]) return i;
+    }
+    throw hex::Error(hex::ErrorKind::usage, "--" + option + " names no stage: '" + name + "'", {},
+                     "use segment, polycube, map, improve or spline");
+}
+
+std::vector<std::string> split_list(const std::string& text) {
+    std::vector<std::string> items;
+    std::istringstream stream(text);
+    for (std::string item; std::getline(stream, item, ',');) {
+        if (!item.empty() && item != "none") items.push_back(item);
+    }
+    return items;
+}
+
+/// The route that an earlier run into this folder took; empty when it cannot be told.
+std::string route_of_report(const std::filesystem::path& file) {
+    std::ifstream stream(file);
+    const Json report = Json::parse(stream, nullptr, false);
+    return report.is_object() && report.contains("route") && report["route"].is_string()
+               ? report["route"].get<std::string>()
+               : std::string();
+}
+
+std::string first_error(const hex::Diagnostics& diagnostics) {
+    for (const auto& finding : diagnostics) {
+        if (finding.severity == hex::Severity::error) return finding.message;
+    }
+    return {};
+}
+
+}  // namespace
+
+Chain::Chain(const CommandLine& line) : line_(line), folder_(line.output()) {}
+
+int Chain::run() {
+    const std::size_t first = stage_index("from", line_.get<std::string>("from"));
+    const std::size_t last = stage_index("to", line_.get<std::string>("to"));
+    if (first > last) throw hex::Error(hex::ErrorKind::usage, "--from comes after --to");
+    make_folder();
+    choose_route(first == 0);
+    for (std::size_t stage = first; stage <= last; ++stage) {
+        try {
+            run_stage(stage);
+        } catch (const RouteClosed& closed) {
+            take_voxel_route(closed.reason);
+            stage = polycube_stage - 1;
+        }
+    }
+    double total = 0;
+    for (const auto& [stage, seconds] : seconds_.items()) total += seconds.get<double>();
+    report_["route"] = route_;
+    seconds_["total"] = total;
+    report_["seconds"] = seconds_;
+    hex::io::write_file(folder_ / "report.json", report_.dump(2) + "\n");
+    line_.write_report(report_);
+    return 0;
+}
+
+void Chain::run_stage(std::size_t stage) {
+    constexpr std::array<void (Chain::*)(), 5> stages = {&Chain::segment, &Chain::polycube, &Chain::map,
+                                                         &Chain::improve, &Chain::spline};
+    const auto start = std::chrono::steady_clock::now();
+    const auto count_time = [&] {
+        const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+        const double before =
+            seconds_.contains(stage_names[stage]) ? seconds_[stage_names[stage]].get<double>() : 0.0;
+        seconds_[stage_names[stage]] = before + elapsed.count();
+    };
+    line_.info(std::string(stage_names[stage]) + " ...");
+    try {
+        (this->*stages[stage])();
+    } catch (const RouteClosed&) {
+        count_time();
+        throw;
+    }
+    count_time();
+}
+
+void Chain::make_folder() {
+    std::error_code problem;
+    std::filesystem::create_directories(folder_, problem);
+    if (problem || !std::filesystem::is_directory(folder_))
+        throw hex::Error(hex::ErrorKind::output, "the output folder cannot be made", folder_.string());
+}
+
+void Chain::choose_route(bool from_start) {
+    const auto wish = line_.get<std::string>("route");
+    if (wish != "auto" && wish != "labelling" && wish != "voxel")
+        throw hex::Error(hex::ErrorKind::usage, "--route is not known: '" + wish + "'", {},
+                         "use auto, labelling or voxel");
+    // An earlier run's files are gone on with along its route.
+    const std::string earlier = from_start ? std::string() : route_of_report(folder_ / "report.json");
+    if (line_.given("segmentation") || line_.given("blocks"))
+        route_ = "given";
+    else if (wish == "voxel")
+        route_ = "voxel";
+    else if (!earlier.empty())
+        route_ = earlier;
+    else
+        route_ = "labelling";
+    if (route_ == "given" && wish != "auto")
+        throw hex::Error(hex::ErrorKind::usage,
+                         "--route and a person's --segmentation or --blocks exclude each other");
+    report_["route"] = route_;  // first in the file
+}
+
+void Chain::take_voxel_route(const std::string& reason) {
+    if (line_.get<std::string>("route") == "labelling")
+        throw hex::Error(hex::ErrorKind::no_result, "the route by labelling ends: " + reason,
+                         line_.input().string(),
+                         "allow --route auto, or give a segmentation and blocks by hand");
+    line_.info("the route by labelling ends: " + reason + "; taking the route by voxels");
+    route_ = "voxel";
+    report_["route_reason"] = reason;
+    patches_.reset();
+    blocks_.reset();
+    mapped_.reset();
+    for (const char* key : {"patches", "corners", "block_structure", "improve"}) report_.erase(key);
+    for (const char* name : {"2-polycube.k", "2-patches.k"}) std::filesystem::remove(folder_ / name);
+}
+
+void Chain::segment() {
+    surface_ = load_triangles(line_, line_.input());
+    hex::SegmentOptions options;
+    options.boundary_weight = line_.get<double>("weight");
+    if (line_.given("weight")) options.method = "hbecvt";
+    auto result = hex::segment(*surface_, options, line_.context());
+    report_["charts"] = result.report.charts;
+    report_["corners"] = result.report.corners;
+    Json repairs = Json::array();
+    for (const auto& repair : result.report.repairs)
+        repairs.push_back({{"repair", repair.repair},
+                           {"reason", repair.reason},
+                           {"triangle", repair.triangle},
+                           {"triangles", repair.triangles}});
+    report_["repairs"] = repairs;
+    hex::io::write_labels(folder_ / "1-labels.txt", result.segmentation.labels);
+    surface_ = hex::with_labels(std::move(*surface_), result.segmentation);
+    hex::io::write_surface(folder_ / "1-segment.k", hex::to_soup(*surface_));
+    segmentation_ = std::move(result.segmentation);
+}
+
+void Chain::polycube() {
+    if (route_ == "given")
+        polycube_of_patches();
+    else if (route_ == "labelling")
+        polycube_of_labels();
+    else
+        polycube_of_voxels();
+}
+
+void Chain::polycube_of_patches() {
+    const bool given = line_.given("segmentation");
+    const std::filesystem::path file =
+        given ? line_.get<std::string>("segmentation") : (folder_ / "1-segment.k").string();
+    hex::TriangleMesh mesh = !given && surface_ ? *surface_ : load_triangles(line_, file);
+    const auto result = hex::polycube(mesh, {}, line_.context());
+    if (result.report.invalid_patches > 0) {
+        line_.log(result.report.violations, file.string());
+        throw hex::Error(
+            hex::ErrorKind::no_result,
+            std::to_string(result.report.invalid_patches) + " patches are no four-cornered disks",
+            file.string(), "give a surface cut into four-sided patches with --segmentation");
+    }
+    report_["patches"] = result.report.patches;
+    report_["corners"] = result.report.corners;
+    for (const auto f : mesh.faces())
+        mesh.data(f).part = result.polycube.layout.patch_of_triangle[static_cast<std::size_t>(f.idx())] + 1;
+    patches_ = std::move(mesh);
+    hex::io::write_surface(folder_ / "2-polycube.k", hex::polycube_surface(result.polycube));
+    hex::io::write_surface(folder_ / "2-patches.k", hex::to_soup(*patches_));
+    if (!line_.given("blocks")) return;
+    blocks_ = load_hexahedra(line_, line_.get<std::string>("blocks"));
+    hex::io::write_hex_mesh(folder_ / "2-blocks.k", *blocks_);
+}
+
+void Chain::polycube_of_labels() {
+    if (!segmentation_) {
+        segmentation_.emplace(hex::Segmentation{hex::labels_of_parts(surface())});
+        if (segmentation_->labels.empty()) throw RouteClosed{"the part ids of 1-segment.k are no labels"};
+    }
+    hex::BlocksResult made;
+    try {
+        made = hex::make_blocks(surface(), *segmentation_, {}, line_.context());
+    } catch (const hex::Error& error) {
+        if (error.kind() != hex::ErrorKind::no_result) throw;
+        throw RouteClosed{error.what()};
+    }
+    Json structure = {{"planes", made.report.planes},
+                      {"cells", made.report.cells},
+                      {"unit", made.report.unit},
+                      {"min_scaled_jacobian", made.report.min_scaled_jacobian}};
+    report_["block_structure"] = structure;
+    if (const std::string wrong = first_error(made.report.violations); !wrong.empty())
+        throw RouteClosed{wrong};
+    const auto quads = hex::polycube(made.patches, {}, line_.context());
+    if (quads.report.invalid_patches > 0)
+        throw RouteClosed{std::to_string(quads.report.invalid_patches) +
+                          " patches are no four-cornered disks"};
+    report_["patches"] = quads.report.patches;
+    report_["corners"] = quads.report.corners;
+    patches_ = std::move(made.patches);
+    blocks_ = std::move(made.blocks);
+    hex::io::write_surface(folder_ / "2-polycube.k", hex::polycube_surface(quads.polycube));
+    hex::io::write_surface(folder_ / "2-patches.k", hex::to_soup(*patches_));
+    hex::io::write_hex_mesh(folder_ / "2-blocks.k", *blocks_);
+}
+
+void Chain::polycube_of_voxels() {
+    hex::VoxelOptions options;
+    if (line_.given("edge-length")) options.cell_size = element_size(line_).edge_length;
+    if (line_.given("target-hexes")) options.target_cells = element_size(line_).target_hexes;
+    auto result = hex::voxel_blocks(surface(), options, line_.context());
+    report_["voxels"] = {{"grid", result.report.grid},
+                         {"cell_size", result.report.cell_size},
+                         {"tries", result.report.tries},
+                         {"repairs", result.report.repairs}};
+    blocks_ = std::move(result.cells);
+    hex::io::write_hex_mesh(folder_ / "2-blocks.k", *blocks_);
+}
+
+void Chain::map() {
+    if (route_ == "voxel")
+        mapped_ = blocks();
+    else if (route_ == "labelling" && !line_.given("level") && !line_.given("edge-length") &&
+             !line_.given("target-hexes"))
+        map_as_fine_as_needed();
+    else
+        map_blocks();
+    report_["blocks"] = blocks().cell_count();
+    report_quality(*mapped_);
+    hex::io::write_hex_mesh(folder_ / "3-map.vtk", *mapped_);
+}
+
+void Chain::map_blocks() {
+    auto result = hex::map(patches(), blocks(), element_size(line_), line_.context());
+    line_.log(result.report.diagnostics);
+    mapped_ = std::move(result.mesh);
+}
+
+void Chain::map_as_fine_as_needed() {
+    hex::MapOptions options = element_size(line_);
+    for (double target = first_target;; target *= target_growth) {
+        options.target_hexes = static_cast<std::size_t>(target);
+        hex::MapResult result;
+        try {
+            result = hex::map(patches(), blocks(), options, line_.context());
+        } catch (const hex::Error& error) {
+            if (error.kind() == hex::ErrorKind::cancelled) throw;
+            throw RouteClosed{error.what()};
+        }
+        const auto apart = hex::surface_distance(result.mesh, patches(), line_.context());
+        const double percent = apart.percent(apart.max());
+        line_.info(std::to_string(result.mesh.cell_count()) + " hexahedra are within " +
+                   std::to_string(percent) + " % of the diagonal of the surface");
+        if (percent <= wished_distance || target * target_growth > last_target) {
+            line_.log(result.report.diagnostics);
+            mapped_ = std::move(result.mesh);
+            return;
+        }
+    }
+}
+
+void Chain::improve() {
+    hex::HexMesh mesh = mapped_ ? std::move(*mapped_) : load_hexahedra(line_, folder_ / "3-map.vtk");
+    mapped_.reset();
+    Json steps = Json::array();
+    const std::string methods =
+        line_.given("improve") ? line_.get<std::string>("improve") : default_improvement();
+    for (const auto& method : split_list(methods)) {
+        hex::ImproveOptions options;
+        options.method = method;
+        options.features = hex::FeatureSource::angle;
+        options.feature_cosine = line_.get<double>("sharp-cosine");
+        options.surface = &patches();
+        auto result = hex::improve(mesh, options, line_.context());
+        line_.log(result.report.diagnostics);
+        steps.push_back({{"method", method},
+                         {"min_scaled_jacobian", {result.report.before.min, result.report.after.min}},
+                         {"inverted", {result.report.before.inverted, result.report.after.inverted}}});
+        mesh = std::move(result.mesh);
+    }
+    const auto summary = hex::summarize(mesh, line_.context());
+    if (summary.inverted > 0 && route_ == "labelling")
+        throw RouteClosed{std::to_string(summary.inverted) +
+                          " elements of the improved mesh are still inverted"};
+    report_["improve"] = steps;
+    report_quality(mesh);
+    hex::io::write_hex_mesh(folder_ / "4-improve.vtk", mesh);
+    improved_ = std::move(mesh);
+    if (summary.inverted > 0)
+        throw hex::Error(
+            hex::ErrorKind::no_result,
+            std::to_string(summary.inverted) + " elements of the improved mesh are still inverted",
+            (folder_ / "4-improve.vtk").string(), "mend the blocks, or try other --improve methods");
+}
+
+void Chain::spline() {
+    if (!improved_) improved_ = load_hexahedra(line_, folder_ / "4-improve.vtk");
+    ::spline::SplineOptions options;
+    options.features = hex::FeatureSource::angle;
+    options.feature_cosine = line_.get<double>("sharp-cosine");
+    const auto result = ::spline::build(*improved_, options, line_.context());
+    line_.log(result.report.diagnostics);
+    report_["control_points"] = result.spline.control_points.size();
+    report_["bezier_elements"] = result.report.summary.elements;
+    ::spline::io::write_bext(folder_ / "5-spline.bext", result.spline);
+    ::spline::io::write_bezier_vtu(folder_ / "5-spline.vtu", result.spline);
+}
+
+const hex::TriangleMesh& Chain::surface() {
+    if (!surface_) surface_ = load_triangles(line_, folder_ / "1-segment.k");
+    return *surface_;
+}
+
+const hex::TriangleMesh& Chain::patches() {
+    if (route_ == "voxel") return surface();
+    if (!patches_)
+        patches_ = load_triangles(
+            line_, std::filesystem::exists(folder_ / "2-patches.k") || !line_.given("segmentation")
+                       ? folder_ / "2-patches.k"
+                       : std::filesystem::path(line_.get<std::string>("segmentation")));
+    return *patches_;
+}
+
+const hex::HexMesh& Chain::blocks() {
+    if (blocks_) return *blocks_;
+    if (line_.given("blocks")) {
+        blocks_ = load_hexahedra(line_, line_.get<std::string>("blocks"));
+    } else {
+        if (!std::filesystem::exists(folder_ / "2-blocks.k"))
+            throw hex::Error(hex::ErrorKind::usage, "there are no blocks to map", {},
+                             "give them with --blocks");
+        blocks_ = load_hexahedra(line_, folder_ / "2-blocks.k");
+    }
+    return *blocks_;
+}
+
+std::string Chain::default_improvement() const {
+    return route_ == "voxel" ? "snap,auto" : line_.get<std::string>("improve");
+}
+
+void Chain::report_quality(const hex::HexMesh& mesh) {
+    const hex::QualitySummary summary = hex::summarize(mesh, line_.context());
+    report_["hexes"] = summary.cells;
+    report_["min_scaled_jacobian"] = summary.min;
+    report_["mean_scaled_jacobian"] = summary.mean;
+    report_["inverted"] = summary.inverted;
+}
+
+}  // namespace cli
