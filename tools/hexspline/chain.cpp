@@ -29,12 +29,17 @@ namespace {
 constexpr std::array<const char*, 5> stage_names = {"segment", "polycube", "map", "improve", "spline"};
 constexpr std::size_t polycube_stage = 1;
 
-/// Hexahedra that the route `labelling` starts from, the factor by which it takes more, and where it ends.
-constexpr double first_target = 1200;
+/// Where no size is asked for, the route `labelling` starts from so many hexahedra, and takes more by this
+/// factor until the mesh follows the surface.
+constexpr double first_target = 1000;
 constexpr double target_growth = 1.5;
-constexpr double last_target = 9200;
-/// It takes more while the mesh and the surface are farther apart than this, in percent of the diagonal.
-constexpr double wished_distance = 1.2;
+constexpr double last_target = 8000;
+/// What follows means: no farther apart than this, in percent of the diagonal, as mapped and after
+/// improvement.
+constexpr double wished_mapped_distance = 1.55;
+constexpr double wished_final_distance = 1.6;
+/// How often a mesh is made anew because the improved one is inverted or too far from the surface.
+constexpr int most_meshes = 3;
 
 std::size_t stage_index(const std::string& option, const std::string& name) {
     for (std::size_t i = 0; i < stage_names.size(); ++i) {
@@ -260,28 +265,29 @@ void Chain::polycube_of_voxels() {
     hex::io::write_hex_mesh(folder_ / "2-blocks.k", *blocks_);
 }
 
+bool Chain::size_is_chosen() const {
+    return route_ == "labelling" && !line_.given("level") && !line_.given("edge-length") &&
+           !line_.given("target-hexes");
+}
+
 void Chain::map() {
-    if (route_ == "voxel")
+    if (route_ == "voxel") {
         mapped_ = blocks();
-    else if (route_ == "labelling" && !line_.given("level") && !line_.given("edge-length") &&
-             !line_.given("target-hexes"))
-        map_as_fine_as_needed();
-    else
-        map_blocks();
+    } else if (size_is_chosen()) {
+        map_as_fine_as_needed(first_target);
+    } else {
+        auto result = hex::map(patches(), blocks(), element_size(line_), line_.context());
+        line_.log(result.report.diagnostics);
+        mapped_ = std::move(result.mesh);
+    }
     report_["blocks"] = blocks().cell_count();
     report_quality(*mapped_);
     hex::io::write_hex_mesh(folder_ / "3-map.vtk", *mapped_);
 }
 
-void Chain::map_blocks() {
-    auto result = hex::map(patches(), blocks(), element_size(line_), line_.context());
-    line_.log(result.report.diagnostics);
-    mapped_ = std::move(result.mesh);
-}
-
-void Chain::map_as_fine_as_needed() {
+void Chain::map_as_fine_as_needed(double target) {
     hex::MapOptions options = element_size(line_);
-    for (double target = first_target;; target *= target_growth) {
+    for (;; target *= target_growth) {
         options.target_hexes = static_cast<std::size_t>(target);
         hex::MapResult result;
         try {
@@ -290,13 +296,13 @@ void Chain::map_as_fine_as_needed() {
             if (error.kind() == hex::ErrorKind::cancelled) throw;
             throw RouteClosed{error.what()};
         }
-        const auto apart = hex::surface_distance(result.mesh, patches(), line_.context());
-        const double percent = apart.percent(apart.max());
+        const double apart = percent_apart(result.mesh);
         line_.info(std::to_string(result.mesh.cell_count()) + " hexahedra are within " +
-                   std::to_string(percent) + " % of the diagonal of the surface");
-        if (percent <= wished_distance || target * target_growth > last_target) {
+                   std::to_string(apart) + " % of the diagonal of the surface");
+        if (apart <= wished_mapped_distance || target * target_growth > last_target) {
             line_.log(result.report.diagnostics);
             mapped_ = std::move(result.mesh);
+            mapped_target_ = target;
             return;
         }
     }
@@ -305,10 +311,50 @@ void Chain::map_as_fine_as_needed() {
 void Chain::improve() {
     hex::HexMesh mesh = mapped_ ? std::move(*mapped_) : load_hexahedra(line_, folder_ / "3-map.vtk");
     mapped_.reset();
+    Json steps = improve_mesh(mesh);
+    hex::QualitySummary summary = hex::summarize(mesh, line_.context());
+    if (route_ == "labelling") {
+        for (int meshes = 1; meshes < most_meshes && mapped_target_ > 0 && size_is_chosen(); ++meshes) {
+            if (summary.inverted == 0 && percent_apart(mesh) <= wished_final_distance) break;
+            line_.info("the improved mesh is inverted or too far from the surface; making a finer one");
+            try {
+                map_as_fine_as_needed(mapped_target_ * target_growth);
+            } catch (const RouteClosed&) {
+                break;  // what there is may still do
+            }
+            hex::HexMesh finer = *mapped_;
+            Json finer_steps = improve_mesh(finer);
+            const hex::QualitySummary finer_summary = hex::summarize(finer, line_.context());
+            if (finer_summary.inverted > summary.inverted) continue;
+            if (finer_summary.inverted == summary.inverted && percent_apart(finer) >= percent_apart(mesh))
+                continue;
+            hex::io::write_hex_mesh(folder_ / "3-map.vtk", *mapped_);
+            mesh = std::move(finer);
+            steps = std::move(finer_steps);
+            summary = finer_summary;
+        }
+        mapped_.reset();
+        if (summary.inverted > 0)
+            throw RouteClosed{std::to_string(summary.inverted) +
+                              " elements of the improved mesh are still inverted"};
+    }
+    report_["improve"] = steps;
+    report_["surface_distance_percent"] = percent_apart(mesh);
+    report_quality(mesh);
+    hex::io::write_hex_mesh(folder_ / "4-improve.vtk", mesh);
+    improved_ = std::move(mesh);
+    if (summary.inverted > 0)
+        throw hex::Error(
+            hex::ErrorKind::no_result,
+            std::to_string(summary.inverted) + " elements of the improved mesh are still inverted",
+            (folder_ / "4-improve.vtk").string(), "mend the blocks, or try other --improve methods");
+}
+
+Json Chain::improve_mesh(hex::HexMesh& mesh) {
     Json steps = Json::array();
-    const std::string methods =
-        line_.given("improve") ? line_.get<std::string>("improve") : default_improvement();
-    for (const auto& method : split_list(methods)) {
+    // The cells of a grid are brought to the surface first.
+    const bool from_voxels = route_ == "voxel" && !line_.given("improve");
+    for (const auto& method : split_list((from_voxels ? "snap," : "") + line_.get<std::string>("improve"))) {
         hex::ImproveOptions options;
         options.method = method;
         options.features = hex::FeatureSource::angle;
@@ -321,19 +367,12 @@ void Chain::improve() {
                          {"inverted", {result.report.before.inverted, result.report.after.inverted}}});
         mesh = std::move(result.mesh);
     }
-    const auto summary = hex::summarize(mesh, line_.context());
-    if (summary.inverted > 0 && route_ == "labelling")
-        throw RouteClosed{std::to_string(summary.inverted) +
-                          " elements of the improved mesh are still inverted"};
-    report_["improve"] = steps;
-    report_quality(mesh);
-    hex::io::write_hex_mesh(folder_ / "4-improve.vtk", mesh);
-    improved_ = std::move(mesh);
-    if (summary.inverted > 0)
-        throw hex::Error(
-            hex::ErrorKind::no_result,
-            std::to_string(summary.inverted) + " elements of the improved mesh are still inverted",
-            (folder_ / "4-improve.vtk").string(), "mend the blocks, or try other --improve methods");
+    return steps;
+}
+
+double Chain::percent_apart(const hex::HexMesh& mesh) {
+    const auto apart = hex::surface_distance(mesh, patches(), line_.context());
+    return apart.percent(apart.max());
 }
 
 void Chain::spline() {
@@ -375,10 +414,6 @@ const hex::HexMesh& Chain::blocks() {
         blocks_ = load_hexahedra(line_, folder_ / "2-blocks.k");
     }
     return *blocks_;
-}
-
-std::string Chain::default_improvement() const {
-    return route_ == "voxel" ? "snap,auto" : line_.get<std::string>("improve");
 }
 
 void Chain::report_quality(const hex::HexMesh& mesh) {

@@ -48,16 +48,20 @@ class Chain {
     void polycube_of_patches();
     void polycube_of_labels();
     void polycube_of_voxels();
-    void map_blocks();
-    /// Fine enough to follow the surface: the number of hexahedra grows until it does.
-    void map_as_fine_as_needed();
+    /// The number of hexahedra is left to the program.
+    bool size_is_chosen() const;
+    /// Maps so many hexahedra, and more until they follow the surface.
+    void map_as_fine_as_needed(double target);
+    /// Runs the methods of --improve, and tells what each did.
+    Json improve_mesh(hex::HexMesh& mesh);
+    /// Largest distance between a mesh and the surface, both ways, in percent of the diagonal.
+    double percent_apart(const hex::HexMesh& mesh);
 
     /// The surface as it came in, labelled when this run labelled it.
     const hex::TriangleMesh& surface();
     /// The surface with four-sided patches; on the route `voxel` the surface as it came in.
     const hex::TriangleMesh& patches();
     const hex::HexMesh& blocks();
-    std::string default_improvement() const;
     void report_quality(const hex::HexMesh& mesh);
 
     const CommandLine& line_;
@@ -68,6 +72,7 @@ class Chain {
     std::optional<hex::TriangleMesh> patches_;
     std::optional<hex::HexMesh> blocks_;
     std::optional<hex::HexMesh> mapped_;
+    double mapped_target_ = 0;  ///< hexahedra that map_as_fine_as_needed ended with
     std::optional<hex::HexMesh> improved_;
     Json report_;
     Json seconds_;
