@@ -56,12 +56,33 @@ class Run(CommandTest):
         self.assertEqual((self.folder / 'out' / '5-spline.bext').read_bytes(),
                          (self.folder / 'plain' / '5-spline.bext').read_bytes())
 
+    def automatic(self, route, *arguments):
+        self.run_program('run', BRACKET / 'bracket.stl', '-o', 'automatic', '--to', 'improve', *arguments)
+        report = self.report('automatic')
+        self.assertEqual((report['route'], report['inverted']), (route, 0))
+        self.assertGreater(report['min_scaled_jacobian'], 0.2)
+        self.assertLess(report['surface_distance_percent'], 1.6)
+        return report
+
+    def test_blocks_are_made_from_the_bare_surface_by_labelling(self):
+        report = self.automatic('labelling')
+        self.assertGreater(report['patches'], 6)
+        self.assertNotIn('route_reason', report)
+        # Going on after a stage keeps to the route.
+        self.run_program('run', BRACKET / 'bracket.stl', '-o', 'automatic', '--from', 'map', '--to', 'map', '-s', 0)
+        again = self.report('automatic')
+        self.assertEqual((again['route'], again['hexes']), ('labelling', report['blocks']))
+
+    def test_blocks_are_made_from_the_bare_surface_by_voxels(self):
+        self.automatic('voxel', '--route', 'voxel', '--target-hexes', 1500)
+        self.assertFalse((self.folder / 'automatic' / '2-patches.k').exists())
+
     def test_what_is_missing_is_named(self):
         surface = BRACKET / 'bracket.stl'
         message = self.run_program('run', surface, '--segmentation', GIVEN[1], '-o', 'out', code=2).stderr
         self.assertIn('--blocks', message)
-        message = self.run_program('run', surface, '-o', 'out', code=4).stderr
-        self.assertIn('--segmentation', message)
+        self.assertIn('labelling', self.run_program('run', surface, '-o', 'out', '--route', 'x', code=2).stderr)
+        self.assertIn('--route', self.chain('-o', 'out', '--route', 'voxel', code=2).stderr)
         self.assertIn('4-improve.vtk', self.run_program('run', surface, '--from', 'spline', '-o', 'new', code=3).stderr)
         self.assertIn('--to', self.chain('-o', 'out', '--from', 'map', '--to', 'segment', code=2).stderr)
         self.assertIn('nowhere', self.chain('-o', 'out', '--from', 'nowhere', code=2).stderr)
