@@ -40,7 +40,8 @@ class Slider {
     std::size_t sweep() {
         std::size_t moves = 0;
         for (const VertexId v : quads_.boundary_vertices) {
-            if (penalty(v) <= 0.0 || sharp_[at(model_.vertex_of_node[v.index()])]) continue;
+            if (penalty(v) <= 0.0) continue;
+            if (sharp_[at(model_.vertex_of_node[v.index()])] && worst_corner(v) > 0.0) continue;
             if (slide(v)) ++moves;
         }
         return moves;
@@ -113,6 +114,14 @@ class Slider {
         return sum;
     }
 
+    double worst_corner(VertexId v) const {
+        double worst = 1.0;
+        for (const CellId c : cells_[v.index()])
+            for (std::size_t k = 0; k < 8; ++k)
+                worst = std::min(worst, corner_scaled_jacobian(model_.blocks, c, k));
+        return worst;
+    }
+
     bool slide(VertexId v) {
         const int here = model_.vertex_of_node[v.index()];
         std::vector<int> patches;
@@ -132,7 +141,7 @@ class Slider {
         const Vec3 position = model_.blocks.position(v);
         const std::size_t stride = candidates.size() / most_candidates + 1;
         for (std::size_t i = 0; i < candidates.size(); i += stride) {
-            if (sharp_[at(candidates[i])]) continue;
+            if (sharp_[at(candidates[i])] != sharp_[at(here)]) continue;
             model_.blocks.set_position(v, model_.points[at(candidates[i])]);
             const double p = penalty(v);
             if (p < least) {

@@ -20,10 +20,11 @@ struct PatchedBlocks {
 };
 
 /// Sweeps over the block vertices on the surface around which a block has a corner with a scaled Jacobian
-/// below `target`: each moves to the vertex of the patches around it where the sum of max(0, target - scaled
-/// Jacobian)^2 over the corners of the blocks around is least, and the lines from there to its neighbours are
-/// cut anew (cut_star). Vertices on sharp edges (cosine between normals below 0.8) stay. Inner block vertices
-/// are placed again after each sweep. Returns the number of moves.
+/// below `target`: each moves to the vertex of the patches around it where the sum of
+/// max(0, target - scaled Jacobian)^2 over the corners of the blocks around is least, and the lines from
+/// there to its neighbours are cut anew (cut_star). A vertex on a sharp edge (cosine between normals below
+/// 0.8) moves only when a block around it is inverted, and only to another on a sharp edge; the others keep
+/// off sharp edges. Inner block vertices are placed again after each sweep. Returns the number of moves.
 std::size_t slide_corners(PatchedBlocks& model, double target, int sweeps, const Context& context);
 
 }  // namespace hex
