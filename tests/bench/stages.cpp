@@ -162,7 +162,7 @@ void add_pipeline(std::vector<Stage>& all, const hex::Context& context, const st
                        },
                        2.0});
     }
-    for (const std::string method : {"laplace", "pillow", "smooth", "optimize"}) {
+    for (const std::string method : {"laplace", "pillow", "smooth", "optimize", "auto"}) {
         all.push_back(
             {"improve -m " + method, part + " -s 3", [=] {
                  const hex::HexMesh mesh = mapped(part, 3, context);

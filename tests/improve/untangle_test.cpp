@@ -103,6 +103,67 @@ TEST(Untangle, StopsAtTheTarget) {
     EXPECT_LT(easy.history.size(), full.history.size());
 }
 
+/// The surface of a box whose top is a vault, y = 0 and y = length its ends; sharp along the springings.
+hex::PolygonSoup vaulted_box(int pieces, double length) {
+    hex::PolygonSoup soup = hex::test::box_surface(4.0, length, 2.0, pieces);
+    for (Vec3& p : soup.points)
+        p.z() += 0.5 * p.z() * std::sqrt(std::max(0.0, 1.0 - (p.x() / 2.0 - 1.0) * (p.x() / 2.0 - 1.0)));
+    return soup;
+}
+
+TEST(Auto, KeepsTheBoundaryAsCloseToTheSurfaceAsItWas) {
+    const hex::TriangleMesh surface = hex::make_triangle_mesh(vaulted_box(8, 4.0));
+    HexMesh mesh = shaken_grid(4, 4, 2, 0.3, 7);
+    for (const VertexId v : mesh.vertices()) {
+        Vec3 p = mesh.position(v);
+        p.z() += 0.5 * p.z() * std::sqrt(std::max(0.0, 1.0 - (p.x() / 2.0 - 1.0) * (p.x() / 2.0 - 1.0)));
+        mesh.set_position(v, p);
+    }
+    hex::ImproveOptions options;
+    options.surface = &surface;
+    const auto report = hex::improve(mesh, options).report;
+    EXPECT_EQ(report.method, "auto");
+    EXPECT_EQ(report.after.inverted, 0U);
+    EXPECT_GT(report.after.min, report.before.min);
+    EXPECT_GT(report.after.mean, report.before.mean);
+    ASSERT_TRUE(report.fidelity_before && report.fidelity_after && report.fidelity_limit);
+    EXPECT_GT(report.fidelity_before->distance, 0.1);
+    EXPECT_LE(report.fidelity_limit->distance, 1.051 * report.fidelity_before->distance);
+    EXPECT_LE(report.fidelity_after->distance, report.fidelity_limit->distance);
+    EXPECT_LE(report.fidelity_after->features, report.fidelity_limit->features);
+    for (const auto& record : report.history) EXPECT_FALSE(record.step.empty());
+    EXPECT_FALSE(report.seconds.empty());
+}
+
+TEST(Auto, SharpEdgesThatWereWrittenAndReadBackGiveTheSameMesh) {
+    const hex::TriangleMesh surface = hex::make_triangle_mesh(hex::test::box_surface(3.0, 3.0, 3.0, 3));
+    const HexMesh mesh = shaken_grid(3, 3, 3, 0.3, 2);
+    hex::ImproveOptions options;
+    options.surface = &surface;
+    const auto found = hex::improve(mesh, options);
+    EXPECT_EQ(found.report.feature_edges.size(), 36U);
+    options.feature_edges = found.report.feature_edges;
+    const auto listed = hex::improve(mesh, options);
+    EXPECT_TRUE(hex::test::identical(found.mesh, listed.mesh));
+    EXPECT_EQ(listed.report.feature_edges, found.report.feature_edges);
+    options.feature_edges = {{0, 1000000}};
+    EXPECT_THROW((void)hex::improve(mesh, options), hex::Error);
+}
+
+TEST(Auto, ATimeLimitGivesWhatWasReachedAndNeverLess) {
+    const HexMesh mesh = shaken_grid(6, 6, 6, 0.35, 4);
+    hex::ImproveOptions options;
+    options.time_limit = 1e-6;
+    const auto hurried = hex::improve(mesh, options).report;
+    EXPECT_LE(hurried.after.inverted, hurried.before.inverted);
+    EXPECT_TRUE(hurried.after.inverted < hurried.before.inverted || hurried.after.min >= hurried.before.min);
+    options.time_limit = 0.0;
+    const auto full = hex::improve(mesh, options).report;
+    EXPECT_LT(hurried.history.size(), full.history.size());
+    options.time_limit = -1.0;
+    EXPECT_THROW((void)hex::improve(mesh, options), hex::Error);
+}
+
 /// Paper models before improvement, on their surfaces (the published ones: min 0.10 to 0.24 at the end).
 TEST(Untangle, PaperModelsOnTheirSurfaces) {
     HEX_NEEDS_REFERENCE_DATA();

@@ -291,6 +291,15 @@ const GuideSurface& BoundaryGuide::surface() const {
     return parts_->surface;
 }
 
+std::vector<std::array<std::int64_t, 2>> BoundaryGuide::curve_edges() const {
+    std::vector<std::array<std::int64_t, 2>> found;
+    for (const SurfaceCurve& curve : parts_->curves)
+        for (const std::uint32_t e : curve.edges)
+            found.push_back({parts_->surface.edges[e].vertices[0], parts_->surface.edges[e].vertices[1]});
+    std::sort(found.begin(), found.end());
+    return found;
+}
+
 double BoundaryGuide::diagonal() const {
     return parts_->surface.diagonal;
 }

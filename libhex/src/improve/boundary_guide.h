@@ -57,6 +57,8 @@ class BoundaryGuide {
     std::array<Vec3, 2> segment(VertexId v, std::uint32_t item) const;
 
     const GuideSurface& surface() const;
+    /// Vertices of the surface at the ends of each edge of its sharp curves, ascending.
+    std::vector<std::array<std::int64_t, 2>> curve_edges() const;
     /// Length of the surface's diagonal.
     double diagonal() const;
     std::size_t curve_count() const { return curve_count_; }

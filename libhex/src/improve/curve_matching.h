@@ -2,8 +2,8 @@
 /// Which boundary edges of a hexahedral mesh follow which sharp curves of a surface.
 #pragma once
 
-#include "surface/search_set.h"
 #include "improve/surface_curves.h"
+#include "surface/search_set.h"
 
 #include <memory>
 

@@ -58,10 +58,23 @@ std::vector<Vec3> reference_boxes(const HexMesh& mesh, const EdgeTable& edges) {
 constexpr double fidelity_loss = 0.05;
 /// Distances that are as good as none, in shares of the diagonal.
 constexpr double negligible = 1e-4;
+/// A round of barrier and ascent that gains less is the last one.
+constexpr double worth_a_round = 0.005;
 /// Meshes that are remembered until one is chosen.
 constexpr std::size_t most_candidates = 12;
 /// What raising the mean may cost the minimum.
-constexpr double minimum_for_mean = 0.02;
+constexpr double minimum_for_mean = 0.04;
+
+CurveOptions curve_options(const ImproveOptions& options) {
+    CurveOptions curves;
+    curves.sharp_cosine = options.feature_cosine;
+    if (options.feature_edges.empty()) return curves;
+    // What somebody listed is no accident.
+    curves.sharp_cosine = 0.0;
+    curves.fewest_edges = 1;
+    curves.shortest_open = 0.0;
+    return curves;
+}
 
 double smallest_determinant(const HexMesh& mesh, const std::vector<Vec3>& boxes) {
     return parallel_reduce(
@@ -81,6 +94,12 @@ bool better(const ImproveRecord& a, const ImproveRecord& b) {
 
 GuideSurface make_guide_surface(const HexMesh& mesh, const BoundaryQuads& boundary,
                                 const ImproveOptions& options) {
+    if (!options.feature_edges.empty()) {
+        GuideSurface surface = options.surface != nullptr ? make_guide_surface(*options.surface)
+                                                          : make_guide_surface(mesh, boundary);
+        set_sharp_edges(surface, options.feature_edges);
+        return surface;
+    }
     if (options.surface != nullptr) return make_guide_surface(*options.surface);
     std::vector<char> listed;
     if (options.features == FeatureSource::list) {
@@ -97,15 +116,17 @@ GuideSurface make_guide_surface(const HexMesh& mesh, const BoundaryQuads& bounda
 }
 
 MinimumRaiser::MinimumRaiser(const HexMesh& mesh, GuideSurface surface, const ImproveOptions& options,
-                             const Context& context)
+                             const Deadline& deadline, const Context& context)
     : options_(options),
+      deadline_(deadline),
       context_(context),
       edges_(edge_table(mesh)),
       boundary_(boundary_quads(mesh)),
-      guide_(mesh, edges_, boundary_, std::move(surface), {.sharp_cosine = options.feature_cosine}),
+      guide_(mesh, edges_, boundary_, std::move(surface), curve_options(options)),
       sliding_(mesh, edges_, &guide_, boundary_),
-      meter_(edges_, boundary_, guide_.surface(), options.feature_cosine),
-      best_(mesh) {}
+      meter_(edges_, boundary_, guide_.surface(), curve_options(options).sharp_cosine),
+      best_(mesh),
+      input_(record_of(scaled_jacobians(mesh, context))) {}
 
 std::size_t MinimumRaiser::sharp_edge_count() const {
     return static_cast<std::size_t>(
@@ -121,14 +142,28 @@ bool MinimumRaiser::reached_target() const {
     return now_.inverted == 0 && now_.min >= aim();
 }
 
-void MinimumRaiser::record(bool eligible) {
+void MinimumRaiser::record(const std::string& step, bool eligible) {
     now_ = record_of(scaled_jacobians(sliding_.mesh(), context_));
     now_.sweep = static_cast<int>(history_.size()) + 1;
+    now_.step = step;
+    const double off = deviation();
+    now_.distance = 100.0 * off / guide_.diagonal();
     history_.push_back(now_);
+    const double time = deadline_.elapsed();
+    const auto own =
+        std::find_if(seconds_.begin(), seconds_.end(), [&](const auto& s) { return s.first == step; });
+    if (own == seconds_.end())
+        seconds_.emplace_back(step, time - last_record_);
+    else
+        own->second += time - last_record_;
+    last_record_ = time;
+    // How many steps there will be is not known before the end.
+    const double steps = static_cast<double>(history_.size());
+    context_.progress(step, steps / (steps + 8.0));
     if (!eligible) return;
     const bool full = candidates_.size() == most_candidates;
     if (full && !better(now_, candidates_.back().record)) return;
-    if (deviation() > std::max(most_deviation_, 1e-12 * guide_.diagonal())) return;
+    if (off > allowed_deviation()) return;
     if (full) candidates_.pop_back();
     const auto place = std::find_if(candidates_.begin(), candidates_.end(), [&](const Candidate& candidate) {
         return better(now_, candidate.record);
@@ -150,50 +185,52 @@ double MinimumRaiser::deviation() const {
 
 void MinimumRaiser::measure_start() {
     sliding_.attach();
-    fidelity_before_ = meter_.measure(sliding_.positions());
+    start_.assign(sliding_.positions().begin(), sliding_.positions().end());
+    if (!limits_given_) fidelity_before_ = meter_.measure(sliding_.positions());
     const double least = negligible * guide_.diagonal();
     limits_.distance = (1.0 + fidelity_loss) * std::max(fidelity_before_.distance, least);
     limits_.features = (1.0 + fidelity_loss) * std::max(fidelity_before_.features, least);
-    keeper_.emplace(edges_, boundary_, guide_.surface(), options_.feature_cosine, sliding_.positions());
+    keeper_.emplace(edges_, boundary_, guide_.surface(), curve_options(options_).sharp_cosine,
+                    sliding_.positions());
     keeper_->set_limit(limits_.distance);
     sliding_.set_keeper(&*keeper_);
 }
 
-void MinimumRaiser::run() {
+void MinimumRaiser::begin() {
+    last_record_ = deadline_.elapsed();
     const bool exact_surface = options_.surface != nullptr;
     const double percent =
         options_.max_deviation >= 0.0 ? options_.max_deviation : (exact_surface ? 0.01 : 1.0);
     // A little less, for the rounding of text files.
     most_deviation_ = 0.0099 * percent * guide_.diagonal();
-    const double most_slack = std::min(most_deviation_, 0.01 * largest_slack * guide_.diagonal());
-
     if (exact_surface) measure_start();
     exact_ = !exact_surface;
     sliding_.use_smooth_curves(true);
     sliding_.attach();
-    record(exact_);
+    record("attach", exact_);
     if (now_.inverted > 0) untangle();
     raise();
-    context_.progress("improve", 0.5);
+}
+
+void MinimumRaiser::finish() {
+    last_record_ = deadline_.elapsed();
+    const bool exact_surface = options_.surface != nullptr;
+    const double most_slack = std::min(most_deviation_, 0.01 * largest_slack * guide_.diagonal());
     const auto solved = [&] { return !candidates_.empty() && candidates_.front().record.inverted == 0; };
     if (exact_surface || !solved()) {
         exact_ = true;
         sliding_.use_smooth_curves(false);
         sliding_.attach();
-        record(true);
+        record("attach", true);
         if (now_.inverted > 0) ascend();
         raise();
-        context_.progress("improve", 0.75);
     }
-    if (!candidates_.empty() && most_slack > 0.0) {
-        for (const double share : {0.5, 1.0}) {
-            if (candidates_.front().record.min >= good_enough) break;
-            sliding_.set_positions(candidates_.front().positions);
-            sliding_.set_slack(share * most_slack);
-            sliding_.attach();
-            if (!solved()) ascend();
-            raise();
-        }
+    if (!candidates_.empty() && most_slack > 0.0 && candidates_.front().record.min < good_enough) {
+        sliding_.set_positions(candidates_.front().positions);
+        sliding_.set_slack(most_slack);
+        sliding_.attach();
+        if (!solved()) ascend();
+        raise();
     }
     if (!candidates_.empty()) {
         raise_mean();
@@ -201,24 +238,30 @@ void MinimumRaiser::run() {
         if (exact_surface && chosen_->record.inverted == 0 && !fidelity_after_.within(limits_))
             restore_fidelity();
     }
-    context_.progress("improve", 1.0);
 }
 
 void MinimumRaiser::raise_mean() {
-    if (candidates_.front().record.inverted > 0) return;
+    if (candidates_.front().record.inverted > 0 || deadline_.passed()) return;
     const Candidate start = candidates_.front();
     sliding_.set_positions(start.positions);
     QualityMean mean;
     mean.floor = start.record.min - minimum_for_mean;
     DescentOptions descent;
     descent.most_iterations = 100;
+    descent.satisfied = [&] { return deadline_.passed(); };
     (void)descend(
         sliding_,
         [&](std::size_t, const HexCorners& corners, HexCorners* gradient) {
             return mean.evaluate(corners, gradient);
         },
         descent, context_);
-    record(exact_);
+    record("mean", false);
+    const double least =
+        std::max(start.record.min - minimum_for_mean, input_.inverted == 0 ? input_.min : 0.0);
+    if (now_.min <= least || now_.mean <= start.record.mean || deviation() > allowed_deviation()) return;
+    if (candidates_.size() == most_candidates) candidates_.pop_back();
+    candidates_.insert(candidates_.begin(),
+                       {now_, {sliding_.positions().begin(), sliding_.positions().end()}, std::nullopt});
 }
 
 void MinimumRaiser::choose() {
@@ -230,6 +273,7 @@ void MinimumRaiser::choose() {
         double least = std::numeric_limits<double>::infinity();
         for (Candidate& candidate : candidates_) {
             if (candidate.record.inverted > candidates_.front().record.inverted) break;
+            if (better(input_, candidate.record)) continue;
             if (!candidate.fidelity) candidate.fidelity = meter_.measure(candidate.positions);
             const double beyond = std::max(1.0, violation(*candidate.fidelity));
             if (beyond >= least) continue;
@@ -237,17 +281,29 @@ void MinimumRaiser::choose() {
             chosen_ = candidate;
             if (beyond == 1.0) break;
         }
+        if (!chosen_->fidelity) chosen_->fidelity = meter_.measure(chosen_->positions);
+        fidelity_after_ = *chosen_->fidelity;
     }
-    fidelity_after_ = chosen_->fidelity ? *chosen_->fidelity : meter_.measure(chosen_->positions);
     best_.set_positions(chosen_->positions);
 }
 
 void MinimumRaiser::restore_fidelity() {
-    for (int round = 0; round < 3 && !fidelity_after_.within(limits_); ++round) {
+    for (int round = 0; round < 2 && !fidelity_after_.within(limits_); ++round) {
         keeper_->set_strength(4.0 * keeper_->strength());
         sliding_.set_positions(chosen_->positions);
         candidates_.resize(std::min(candidates_.size(), most_candidates / 2));
-        lower_barrier(0.3);
+        lower_barrier(0.1);
+        choose();
+    }
+    const std::vector<Vec3> far = chosen_->positions;
+    for (const double share : {0.1, 0.25, 0.5, 0.75, 1.0}) {
+        if (fidelity_after_.within(limits_)) break;
+        std::vector<Vec3> between(far.size());
+        for (std::size_t v = 0; v < far.size(); ++v) between[v] = far[v] + share * (start_[v] - far[v]);
+        candidates_ = {*chosen_};
+        sliding_.set_positions(between);
+        sliding_.attach();
+        record("back", true);
         choose();
     }
 }
@@ -260,12 +316,13 @@ void MinimumRaiser::untangle() {
     const auto cell_energy = [&](std::size_t c, const HexCorners& corners, HexCorners* gradient) {
         return energy.evaluate(corners, boxes[c], gradient);
     };
-    for (int k = 0; k < most_continuations; ++k) {
+    for (int k = 0; k < most_continuations && !deadline_.passed(); ++k) {
         DescentOptions descent;
         descent.most_iterations = 100;
+        descent.satisfied = [&] { return deadline_.passed(); };
         const DescentResult result = descend(sliding_, cell_energy, descent, context_);
         det = smallest_determinant(sliding_.mesh(), boxes);
-        record(exact_);
+        record("untangle", exact_);
         if (now_.inverted > 0 && now_.inverted < 1 + sliding_.mesh().cell_count() / 200) ascend();
         if (now_.inverted == 0) break;
         if (result.iterations == 0 && k > 10) break;
@@ -285,7 +342,7 @@ void MinimumRaiser::untangle() {
     const double before = now_.min;
     const std::vector<Vec3> positions(sliding_.positions().begin(), sliding_.positions().end());
     if (det > 0.0) (void)descend(sliding_, cell_energy, descent, context_);
-    record(exact_);
+    record("untangle", exact_);
     if (now_.inverted > 0) {
         sliding_.set_positions(positions);
         now_.min = before;
@@ -294,10 +351,14 @@ void MinimumRaiser::untangle() {
 
 void MinimumRaiser::raise() {
     ascend();
-    for (const double gap : {0.3, 0.1, 0.03}) {
-        if (reached_target()) return;
+    constexpr double first_gap = 0.3;
+    for (const double gap : {first_gap, 0.1, 0.03}) {
+        if (reached_target() || deadline_.passed()) return;
+        const ImproveRecord before = now_;
         lower_barrier(gap);
         ascend();
+        const bool gained = now_.inverted < before.inverted || now_.min >= before.min + worth_a_round;
+        if (!gained && gap < first_gap) return;
     }
 }
 
@@ -310,21 +371,23 @@ void MinimumRaiser::lower_barrier(double gap) {
         DescentOptions descent;
         descent.most_iterations = 50;
         descent.relative_gain = 1e-5;
+        descent.satisfied = [&] { return deadline_.passed(); };
         (void)descend(
             sliding_,
             [&](std::size_t, const HexCorners& corners, HexCorners* gradient) {
                 return barrier.evaluate(corners, gradient);
             },
             descent, context_);
-        record(exact_);
-        if (now_.min - before.min < 0.25 * gap) return;
+        record("barrier", exact_);
+        if (deadline_.passed() || now_.min - before.min < 0.25 * gap) return;
     }
 }
 
 void MinimumRaiser::ascend() {
     AscentOptions options;
     options.target = aim();
-    if (raise_star_minima(sliding_, options, context_) > 0) record(exact_);
+    options.satisfied = [&] { return deadline_.passed(); };
+    if (raise_star_minima(sliding_, options, context_) > 0) record("ascent", exact_);
 }
 
 }  // namespace hex::improving

@@ -7,6 +7,8 @@
 
 #include <hex/improve/improve.h>
 
+#include <algorithm>
+#include <chrono>
 #include <optional>
 #include <string>
 
@@ -16,7 +18,21 @@ namespace hex::improving {
 GuideSurface make_guide_surface(const HexMesh& mesh, const BoundaryQuads& boundary,
                                 const ImproveOptions& options);
 
-/// One mesh on its way up. `run` does:
+/// Time that is up after so many seconds (0: never), shared by what runs one after the other.
+class Deadline {
+  public:
+    explicit Deadline(double seconds) : seconds_(seconds), start_(std::chrono::steady_clock::now()) {}
+    bool passed() const { return seconds_ > 0.0 && elapsed() > seconds_; }
+    double elapsed() const {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
+    }
+
+  private:
+    double seconds_;
+    std::chrono::steady_clock::time_point start_;
+};
+
+/// One mesh on its way up. `begin` does 1 to 3 and `finish` the rest:
 /// 1. boundary vertices onto their parts of the surface (boundary_guide.h), curves smooth for now;
 /// 2. while something is inverted: minimise the foldover-free energy, with the paper's rule for epsilon;
 /// 3. in turns the barrier over all vertices (corner_energies.h) and the star ascent (star_ascent.h), with
@@ -30,9 +46,24 @@ GuideSurface make_guide_surface(const HexMesh& mesh, const BoundaryQuads& bounda
 class MinimumRaiser {
   public:
     MinimumRaiser(const HexMesh& mesh, GuideSurface surface, const ImproveOptions& options,
-                  const Context& context);
+                  const Deadline& deadline, const Context& context);
 
-    void run();
+    void begin();
+    void finish();
+    void run() {
+        begin();
+        finish();
+    }
+    /// The mesh between `begin` and `finish`.
+    const HexMesh& current() const { return sliding_.mesh(); }
+    const ImproveRecord& now() const { return now_; }
+    /// To be as close to the surface as another raiser has to be; call before `begin`.
+    void take_limits(const MinimumRaiser& other) {
+        fidelity_before_ = other.fidelity_before_;
+        limits_ = other.limits_;
+        limits_given_ = true;
+    }
+    const std::vector<std::pair<std::string, double>>& seconds() const { return seconds_; }
 
     /// Whether any mesh within `max_deviation` was met.
     bool has_best() const { return chosen_.has_value(); }
@@ -44,6 +75,8 @@ class MinimumRaiser {
     const Fidelity& fidelity_limits() const { return limits_; }
     const std::vector<ImproveRecord>& history() const { return history_; }
     std::size_t sharp_edge_count() const;
+    /// Whether the surface is one of its own, not the boundary of the input.
+    bool guided_by_surface() const { return options_.surface != nullptr; }
     const BoundaryGuide& guide() const { return guide_; }
     const BoundaryQuads& boundary() const { return boundary_; }
 
@@ -56,18 +89,21 @@ class MinimumRaiser {
     void raise_mean();
     /// The best candidate that is within the limits; otherwise the one that is least beyond them.
     void choose();
-    /// The same steps with more and more weight on the shape, until a mesh is within the limits.
+    /// The barrier with more weight on the shape, then steps back towards the start, until a mesh is within
+    /// the limits.
     void restore_fidelity();
     /// Notes the mesh as it is now; it becomes a candidate if `eligible`.
-    void record(bool eligible);
+    void record(const std::string& step, bool eligible);
     void measure_start();
     /// The minimum at which raising stops.
     double aim() const;
     bool reached_target() const;
     /// Largest distance of a boundary vertex to its part of the surface.
     double deviation() const;
+    double allowed_deviation() const { return std::max(most_deviation_, 1e-12 * guide_.diagonal()); }
 
     const ImproveOptions& options_;
+    const Deadline& deadline_;
     const Context& context_;
     EdgeTable edges_;
     BoundaryQuads boundary_;
@@ -75,6 +111,7 @@ class MinimumRaiser {
     SlidingMesh sliding_;
     FidelityMeter meter_;
     std::optional<ShapeKeeper> keeper_;
+    std::vector<Vec3> start_;  // the input on the exact surface
     Fidelity fidelity_before_, fidelity_after_, limits_;
     struct Candidate {
         ImproveRecord record;
@@ -84,9 +121,13 @@ class MinimumRaiser {
     std::vector<Candidate> candidates_;  // the best first
     std::optional<Candidate> chosen_;
     HexMesh best_;
+    ImproveRecord input_;
     ImproveRecord now_;
     double most_deviation_ = 0.0;
     bool exact_ = false;
+    bool limits_given_ = false;
+    double last_record_ = 0.0;
+    std::vector<std::pair<std::string, double>> seconds_;
     std::vector<ImproveRecord> history_;
 };
 

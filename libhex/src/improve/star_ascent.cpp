@@ -124,6 +124,7 @@ int raise_star_minima(SlidingMesh& mesh, const AscentOptions& options, const Con
     int sweeps = 0;
     for (; sweeps < options.most_sweeps; ++sweeps) {
         context.check_cancelled();
+        if (options.satisfied && options.satisfied()) break;
         const std::vector<double> values = scaled_jacobians(mesh.mesh());
         const double worst = *std::min_element(values.begin(), values.end());
         minima.push_back(worst);

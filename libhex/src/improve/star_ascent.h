@@ -15,6 +15,8 @@ struct AscentOptions {
     /// Ends when `patience` sweeps together raised the minimum by less than `gain`.
     double gain = 1e-3;
     int patience = 3;
+    /// Asked before every sweep; true ends the ascent.
+    std::function<bool()> satisfied;
 };
 
 /// Each vertex of a bad cell tries steps along the directions in which its bad cells improve together, along

@@ -1,8 +1,11 @@
 #include "improve/surface_curves.h"
 
+#include <hex/base/error.h>
+
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <string>
 
 namespace hex::improving {
 namespace {
@@ -276,6 +279,30 @@ GuideSurface make_guide_surface(const HexMesh& mesh, const BoundaryQuads& bounda
         }
     }
     return std::move(builder.surface);
+}
+
+void set_sharp_edges(GuideSurface& surface, std::vector<std::array<std::int64_t, 2>> edges) {
+    for (auto& edge : edges) std::sort(edge.begin(), edge.end());
+    std::sort(edges.begin(), edges.end());
+    edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+    std::size_t found = 0;
+    for (GuideSurface::Edge& edge : surface.edges) {
+        const std::array<std::int64_t, 2> own = {edge.vertices[0], edge.vertices[1]};
+        const auto place = std::lower_bound(edges.begin(), edges.end(), own);
+        const bool sharp = place != edges.end() && *place == own;
+        edge.cosine = sharp ? -1.0 : 1.0;
+        found += sharp;
+    }
+    if (found == edges.size()) return;
+    for (const auto& edge : edges) {
+        const auto same = [&](const GuideSurface::Edge& e) {
+            return edge[0] == e.vertices[0] && edge[1] == e.vertices[1];
+        };
+        if (std::any_of(surface.edges.begin(), surface.edges.end(), same)) continue;
+        std::string text = "no edge of the surface joins the vertices ";
+        text += std::to_string(edge[0]) + " and " + std::to_string(edge[1]);
+        throw Error(ErrorKind::bad_input, text, {}, "sharp edges are pairs of its vertices, counted from 0");
+    }
 }
 
 std::vector<SurfaceCurve> find_surface_curves(const GuideSurface& surface, const CurveOptions& options) {

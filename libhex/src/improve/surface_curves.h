@@ -32,6 +32,10 @@ GuideSurface make_guide_surface(const TriangleMesh& mesh);
 GuideSurface make_guide_surface(const HexMesh& mesh, const BoundaryQuads& boundary,
                                 const std::vector<char>& listed = {});
 
+/// From now on exactly these edges, given by their vertices, are sharp. Throws Error{bad_input} for a pair
+/// that is no edge.
+void set_sharp_edges(GuideSurface& surface, std::vector<std::array<std::int64_t, 2>> edges);
+
 /// A run of sharp edges between two corners, or a closed one.
 struct SurfaceCurve {
     std::vector<std::uint32_t> vertices;  ///< in order; first == last if closed

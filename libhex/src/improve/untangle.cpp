@@ -10,6 +10,7 @@
 namespace hex {
 namespace {
 
+using improving::Deadline;
 using improving::Freedom;
 using improving::GuideSurface;
 using improving::MinimumRaiser;
@@ -29,32 +30,37 @@ ImproveRecord measure(const HexMesh& mesh, const Context& context) {
 }
 
 void report_distance(const MinimumRaiser& raiser, ImproveReport& report) {
-    double largest = 0.0;
-    for (const VertexId v : raiser.boundary().boundary_vertices) {
-        const Vec3& p = raiser.best().position(v);
-        largest = std::max(largest, (raiser.guide().nearest(v, p, 0).point - p).norm());
-    }
-    char text[240];
+    char text[200];
     std::snprintf(
         text, sizeof text,
         "boundary vertices are at most %.3g %% of the diagonal off their part of the surface; %zu of "
         "its %zu sharp curves are followed",
-        100.0 * largest / raiser.guide().diagonal(), raiser.guide().matched_curve_count(),
-        raiser.guide().curve_count());
+        raiser.best_record().distance, raiser.guide().matched_curve_count(), raiser.guide().curve_count());
     report.diagnostics.push_back({Severity::note, "surface-distance", text, "", {}});
+    report.feature_edges = raiser.guide().curve_edges();
     const double percent = 100.0 / raiser.guide().diagonal();
+    const auto scaled = [&](const improving::Fidelity& f) {
+        return ImproveFidelity{percent * f.distance, percent * f.features};
+    };
+    if (!raiser.guided_by_surface()) return;
+    report.fidelity_before = scaled(raiser.fidelity_before());
+    report.fidelity_after = scaled(raiser.fidelity_after());
+    report.fidelity_limit = scaled(raiser.fidelity_limits());
     std::snprintf(text, sizeof text,
                   "largest distance between boundary and surface %.4g %% of the diagonal (input %.4g), mean "
                   "distance of sharp edges %.4g %% (input %.4g)",
-                  percent * raiser.fidelity_after().distance, percent * raiser.fidelity_before().distance,
-                  percent * raiser.fidelity_after().features, percent * raiser.fidelity_before().features);
-    report.diagnostics.push_back({Severity::note, "fidelity", text, "", {}});
+                  report.fidelity_after->distance, report.fidelity_before->distance,
+                  report.fidelity_after->features, report.fidelity_before->features);
+    const bool kept = raiser.fidelity_after().within(raiser.fidelity_limits());
+    report.diagnostics.push_back(
+        {kept ? Severity::note : Severity::warning, kept ? "fidelity" : "fidelity-lost", text, "", {}});
 }
 
 /// The raiser's mesh, or the input where that is better.
 ImproveResult result_of(const HexMesh& input, const MinimumRaiser& raiser, const Context& context) {
     ImproveResult result;
     result.report.history = raiser.history();
+    result.report.seconds = raiser.seconds();
     result.report.sharp_edges = raiser.sharp_edge_count();
     if (!raiser.has_best() || improving::better(measure(input, context), raiser.best_record())) {
         result.mesh = input;
@@ -71,8 +77,9 @@ class UntangleImprover : public Improver {
   public:
     ImproveResult improve(const HexMesh& mesh, const ImproveOptions& options,
                           const Context& context) const override {
+        const Deadline deadline(options.time_limit);
         MinimumRaiser raiser(mesh, improving::make_guide_surface(mesh, boundary_quads(mesh), options),
-                             options, context);
+                             options, deadline, context);
         raiser.run();
         return result_of(mesh, raiser, context);
     }
@@ -81,9 +88,9 @@ class UntangleImprover : public Improver {
 /// Whether bad cells have two boundary faces on one smooth region: at the edge between such faces the surface
 /// leaves an angle of nearly 180 degrees, and no motion of vertices makes that a good corner.
 bool limited_by_flat_edges(const MinimumRaiser& raiser, const Context& context) {
-    const HexMesh& mesh = raiser.best();
+    const HexMesh& mesh = raiser.current();
     const std::vector<double> values = scaled_jacobians(mesh, context);
-    const double bad = raiser.best_record().min + 0.1;
+    const double bad = raiser.now().min + 0.1;
     for (const CellId c : mesh.cells()) {
         if (values[c.index()] > bad) continue;
         for (const auto& ends : hexahedron::edge_corners) {
@@ -100,44 +107,62 @@ bool limited_by_flat_edges(const MinimumRaiser& raiser, const Context& context) 
     return false;
 }
 
-/// untangle; then, where elements with two boundary faces on one smooth region are what limits the minimum,
-/// the same again with a layer of elements around the input, if that is better by enough.
+/// untangle; but where, once the mesh is valid, elements with two boundary faces on one smooth region are
+/// what limits the minimum, a layer of elements is put around first. It is kept if that is better by enough.
 class AutoImprover : public Improver {
   public:
     ImproveResult improve(const HexMesh& mesh, const ImproveOptions& options,
                           const Context& context) const override {
+        const Deadline deadline(options.time_limit);
         const GuideSurface surface = improving::make_guide_surface(mesh, boundary_quads(mesh), options);
-        MinimumRaiser plain(mesh, surface, options, context);
-        plain.run();
-        ImproveResult result = result_of(mesh, plain, context);
-        if (!plain.has_best() || plain.best_record().min >= std::min(worth_a_layer, options.target) ||
-            !limited_by_flat_edges(plain, context))
-            return result;
-
+        MinimumRaiser plain(mesh, surface, options, deadline, context);
+        plain.begin();
+        if (plain.now().min >= std::min(worth_a_layer, options.target) || deadline.passed() ||
+            !limited_by_flat_edges(plain, context)) {
+            plain.finish();
+            return result_of(mesh, plain, context);
+        }
         ImproveOptions layer;
         layer.count = 1;
-        const HexMesh layered = improvers().make("pillow")->improve(plain.best(), layer, context).mesh;
-        MinimumRaiser raised(layered, surface, options, context);
+        const HexMesh layered = improvers().make("pillow")->improve(plain.current(), layer, context).mesh;
+        MinimumRaiser raised(layered, surface, options, deadline, context);
+        raised.take_limits(plain);
         raised.run();
+        const bool good = raised.has_best() && raised.best_record().inverted == 0 &&
+                          raised.best_record().min >= worth_a_layer;
+        if (!good) {
+            plain.finish();
+            if (plain.has_best() && !worth_it(raised, plain)) return result_of(mesh, plain, context);
+        }
+        ImproveResult result = result_of(mesh, raised, context);
+        auto& history = result.report.history;
+        history.insert(history.begin(), plain.history().begin(), plain.history().end());
+        for (std::size_t i = 0; i < history.size(); ++i) history[i].sweep = static_cast<int>(i) + 1;
+        for (const auto& [step, seconds] : plain.seconds()) add_seconds(result.report, step, seconds);
+        if (result.mesh.cell_count() == mesh.cell_count()) return result;
+        std::string text =
+            "elements with two boundary faces on a smooth part of the surface limited the minimum; a layer "
+            "of ";
+        text += std::to_string(layered.cell_count() - mesh.cell_count()) + " elements was put around";
+        result.report.diagnostics.push_back({Severity::note, "layer-added", text, "", {}});
+        return result;
+    }
+
+  private:
+    static bool worth_it(const MinimumRaiser& layered, const MinimumRaiser& plain) {
+        if (!layered.has_best()) return false;
         const ImproveRecord& before = plain.best_record();
-        const ImproveRecord& after = raised.best_record();
-        if (!raised.has_best() || after.inverted > before.inverted ||
-            (after.inverted == before.inverted && after.min < before.min + least_gain))
-            return result;
-        ImproveResult with_layer = result_of(mesh, raised, context);
-        with_layer.report.history.insert(with_layer.report.history.begin(), plain.history().begin(),
-                                         plain.history().end());
-        for (std::size_t i = 0; i < with_layer.report.history.size(); ++i)
-            with_layer.report.history[i].sweep = static_cast<int>(i) + 1;
-        with_layer.report.diagnostics.push_back(
-            {Severity::note,
-             "layer-added",
-             "elements with two boundary faces on a smooth part of the surface limited the minimum; a layer "
-             "of " +
-                 std::to_string(layered.cell_count() - mesh.cell_count()) + " elements was put around",
-             "",
-             {}});
-        return with_layer;
+        const ImproveRecord& after = layered.best_record();
+        return after.inverted < before.inverted ||
+               (after.inverted == before.inverted && after.min >= before.min + least_gain);
+    }
+    static void add_seconds(ImproveReport& report, const std::string& step, double seconds) {
+        for (auto& [name, sum] : report.seconds) {
+            if (name != step) continue;
+            sum += seconds;
+            return;
+        }
+        report.seconds.emplace_back(step, seconds);
     }
 };
 

@@ -11,9 +11,13 @@
 #include <hex/improve/improve.h>
 #include <hex/io/hex_file.h>
 #include <hex/io/list_file.h>
+#include <hex/io/number_text.h>
+#include <hex/io/output_file.h>
 
 #include <array>
+#include <fstream>
 #include <optional>
+#include <sstream>
 
 namespace cli {
 namespace {
@@ -41,6 +45,14 @@ void describe(CommandLine& line) {
         "with --surface, else 1)");
     line.add("target-sj", value<double>()->default_value(1.0),
              "untangle, auto: stop when the smallest scaled Jacobian has reached this");
+    line.add("time-limit", value<double>("SECONDS")->default_value(0.0, "none"),
+             "untangle, auto: end soon after so many seconds, with the best mesh found until then");
+    line.add("features", value<std::string>("angle|patches|FILE")->default_value("angle"),
+             "untangle, auto: sharp edges of the surface (of the input without --surface): by -t, between "
+             "parts of "
+             "--surface, or listed in a file, two vertices a line, counted from 0");
+    line.add("features-out", value<std::string>(),
+             "untangle, auto: write the sharp edges that were used, for --features");
 }
 
 /// The paper's numbers of the methods, and names.
@@ -74,12 +86,62 @@ hex::ImproveOptions options_of(const CommandLine& line) {
     }
     options.target = line.get<double>("target-sj");
     line.require_range("target-sj", options.target, 1e-12, 1.0);
+    options.time_limit = line.get<double>("time-limit");
+    line.require_range("time-limit", options.time_limit, 0.0, 1e9);
     return options;
 }
 
 std::filesystem::path sharp_file(const CommandLine& line) {
     if (line.given("sharp-file")) return line.get<std::string>("sharp-file");
     return line.input().parent_path() / "sharp.txt";
+}
+
+using EdgeList = std::vector<std::array<std::int64_t, 2>>;
+
+/// The edges between triangles of different parts.
+EdgeList patch_borders(const hex::TriangleMesh& mesh) {
+    EdgeList edges;
+    for (const auto e : mesh.edges()) {
+        const auto h = mesh.halfedge_handle(e, 0);
+        const auto f = mesh.face_handle(h);
+        const auto g = mesh.face_handle(mesh.opposite_halfedge_handle(h));
+        if (!f.is_valid() || !g.is_valid() || mesh.data(f).part == mesh.data(g).part) continue;
+        edges.push_back({mesh.from_vertex_handle(h).idx(), mesh.to_vertex_handle(h).idx()});
+    }
+    return edges;
+}
+
+EdgeList read_edges(const std::filesystem::path& file) {
+    std::ifstream stream(file);
+    if (!stream) throw hex::Error(hex::ErrorKind::bad_input, "the file cannot be read", file.string());
+    EdgeList edges;
+    int number = 0;
+    for (std::string text; std::getline(stream, text);) {
+        ++number;
+        std::istringstream words(text);
+        std::string first, second, more;
+        if (!(words >> first)) continue;
+        words >> second;
+        const auto a = hex::io::parse_integer(first);
+        const auto b = hex::io::parse_integer(second);
+        if (!a || !b || words >> more)
+            throw hex::Error(hex::ErrorKind::bad_input, "not two vertices",
+                             file.string() + ":" + std::to_string(number),
+                             "an edge is two numbers of vertices");
+        edges.push_back({*a, *b});
+    }
+    return edges;
+}
+
+void write_edges(const std::filesystem::path& file, const EdgeList& edges) {
+    std::string text;
+    for (const auto& edge : edges) {
+        text += std::to_string(edge[0]);
+        text += ' ';
+        text += std::to_string(edge[1]);
+        text += '\n';
+    }
+    hex::io::write_file(file, text);
 }
 
 Json quality_json(const hex::QualitySummary& summary) {
@@ -92,18 +154,34 @@ Json quality_json(const hex::QualitySummary& summary) {
 
 Json report_of(const hex::ImproveReport& report) {
     Json history = Json::array();
-    for (const auto& record : report.history)
-        history.push_back({{"sweep", record.sweep},
-                           {"moved", record.moved},
-                           {"min_scaled_jacobian", record.min},
-                           {"mean_scaled_jacobian", record.mean},
-                           {"inverted", record.inverted}});
-    return {{"method", report.method},
-            {"before", quality_json(report.before)},
-            {"after", quality_json(report.after)},
-            {"sharp_edges", report.sharp_edges},
-            {"history", history},
-            {"diagnostics", to_json(report.diagnostics)}};
+    for (const auto& record : report.history) {
+        Json entry = {{"sweep", record.sweep},
+                      {"moved", record.moved},
+                      {"min_scaled_jacobian", record.min},
+                      {"mean_scaled_jacobian", record.mean},
+                      {"inverted", record.inverted}};
+        if (!record.step.empty()) {
+            entry["step"] = record.step;
+            entry["surface_distance_percent"] = record.distance;
+        }
+        history.push_back(entry);
+    }
+    Json json = {{"method", report.method},
+                 {"before", quality_json(report.before)},
+                 {"after", quality_json(report.after)},
+                 {"sharp_edges", report.sharp_edges},
+                 {"history", history},
+                 {"diagnostics", to_json(report.diagnostics)}};
+    const auto add_fidelity = [&](const char* name, const std::optional<hex::ImproveFidelity>& fidelity) {
+        if (fidelity)
+            json["fidelity"][name] = {{"distance_percent", fidelity->distance},
+                                      {"sharp_edges_percent", fidelity->features}};
+    };
+    add_fidelity("before", report.fidelity_before);
+    add_fidelity("after", report.fidelity_after);
+    add_fidelity("limit", report.fidelity_limit);
+    for (const auto& [step, seconds] : report.seconds) json["seconds"][step] = seconds;
+    return json;
 }
 
 void tell(const CommandLine& line, const hex::ImproveReport& report) {
@@ -129,6 +207,15 @@ int run(CommandLine& line) {
         surface = load_triangles(line, line.get<std::string>("surface"));
         options.surface = &*surface;
     }
+    const std::string features = line.get<std::string>("features");
+    if (features == "patches") {
+        if (!surface)
+            throw hex::Error(hex::ErrorKind::usage, "--features patches without a surface", {},
+                             "give the surface with its parts as --surface");
+        options.feature_edges = patch_borders(*surface);
+    } else if (features != "angle") {
+        options.feature_edges = read_edges(features);
+    }
     const hex::ImproveResult result = [&] {
         try {
             return hex::improve(mesh, options, line.context());
@@ -136,10 +223,13 @@ int run(CommandLine& line) {
             // What is wrong with a valid mesh's input is the list of sharp vertices.
             if (error.kind() != hex::ErrorKind::bad_input) throw;
             const bool list = options.features == hex::FeatureSource::list;
+            if (!options.feature_edges.empty() && features != "patches") throw error.located(features);
             throw error.located((list ? sharp_file(line) : line.input()).string());
         }
     }();
     hex::io::write_hex_mesh(line.output(), result.mesh);
+    if (line.given("features-out"))
+        write_edges(line.get<std::string>("features-out"), result.report.feature_edges);
     tell(line, result.report);
     line.write_report(report_of(result.report));
     return 0;

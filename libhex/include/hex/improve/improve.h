@@ -10,9 +10,11 @@
 #include <hex/surface/mesh_types.h>
 #include <hex/volume/hex_mesh.h>
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace hex {
@@ -46,15 +48,34 @@ struct ImproveOptions {
     double max_deviation = -1.0;
     /// untangle, auto: they stop when the smallest scaled Jacobian has reached this, in (0, 1].
     double target = 1.0;
+    /// untangle, auto: the sharp edges, as pairs of 0-based vertices of `surface` (of the input without one),
+    /// instead of those found by angle. Empty: found by angle.
+    std::vector<std::array<std::int64_t, 2>> feature_edges;
+    /// untangle, auto: they end as soon as they can after so many seconds and give the best found until then;
+    /// 0: no limit. With a limit results may differ from run to run.
+    double time_limit = 0.0;
 };
 
-/// State of the mesh after a sweep or a layer.
+/// State of the mesh after a sweep, a layer or a step.
 struct ImproveRecord {
     int sweep = 0;
+    std::string step;
     std::size_t moved = 0;
     double min = 0.0;
     double mean = 0.0;
     std::size_t inverted = 0;
+    /// untangle, auto: largest distance of a boundary vertex to its part of the surface, in percent of the
+    /// diagonal.
+    double distance = 0.0;
+};
+
+/// How far boundary and surface are from each other, in percent of the surface's diagonal.
+struct ImproveFidelity {
+    /// Largest distance, both ways: of boundary vertices and quad centres to the surface, of vertices and
+    /// triangle centroids of the surface to the boundary.
+    double distance = 0.0;
+    /// Mean distance of points on sharp edges of the surface to the nearest edge of the boundary.
+    double features = 0.0;
 };
 
 struct ImproveReport {
@@ -63,6 +84,14 @@ struct ImproveReport {
     QualitySummary after;
     std::size_t sharp_edges = 0;
     std::vector<ImproveRecord> history;
+    /// Of `untangle` and `auto` with a surface: of the input with its boundary vertices on the surface, of
+    /// the result, and what was allowed.
+    std::optional<ImproveFidelity> fidelity_before, fidelity_after, fidelity_limit;
+    /// untangle, auto: the sharp edges that were used, as pairs of vertices of the surface (of the input
+    /// without one), ascending.
+    std::vector<std::array<std::int64_t, 2>> feature_edges;
+    /// Seconds that each kind of step took, in order of their first use (untangle, auto).
+    std::vector<std::pair<std::string, double>> seconds;
     Diagnostics diagnostics;
 };
 
