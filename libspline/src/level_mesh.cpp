@@ -28,6 +28,50 @@ FaceTable face_table(const HexMesh& mesh) {
     return table;
 }
 
+namespace {
+
+/// Boundary quads joined across edges that are not sharp.
+std::vector<std::int32_t> find_patches(const LevelMesh& level) {
+    const hex::BoundaryQuads& boundary = level.boundary;
+    std::vector<std::vector<std::size_t>> quads_of_edge(level.edges.size());
+    std::vector<std::array<EdgeId, 4>> edges_of_quad(boundary.size());
+    for (std::size_t q = 0; q < boundary.size(); ++q) {
+        const HalfFaceId h = boundary.half_faces[q];
+        const auto& corners = hex::hexahedron::face_corners[static_cast<std::size_t>(HexMesh::local_face(h))];
+        for (std::size_t i = 0; i < 4; ++i) {
+            const int local = hex::hexahedron::edge_between(corners[i], corners[(i + 1) % 4]);
+            const EdgeId e =
+                level.edges.cell_edges[HexMesh::cell_of(h).index()][static_cast<std::size_t>(local)];
+            edges_of_quad[q][i] = e;
+            quads_of_edge[e.index()].push_back(q);
+        }
+    }
+    std::vector<std::int32_t> patch(boundary.size(), -1);
+    std::int32_t count = 0;
+    std::vector<std::size_t> stack;
+    for (std::size_t first = 0; first < boundary.size(); ++first) {
+        if (patch[first] >= 0) continue;
+        patch[first] = count;
+        stack = {first};
+        while (!stack.empty()) {
+            const std::size_t q = stack.back();
+            stack.pop_back();
+            for (const EdgeId e : edges_of_quad[q]) {
+                if (level.features.sharp_edge[e.index()] != 0) continue;
+                for (const std::size_t other : quads_of_edge[e.index()]) {
+                    if (patch[other] >= 0) continue;
+                    patch[other] = count;
+                    stack.push_back(other);
+                }
+            }
+        }
+        ++count;
+    }
+    return patch;
+}
+
+}  // namespace
+
 LevelMesh coarsest_level(HexMesh mesh, hex::EdgeTable edges, hex::BoundaryQuads boundary,
                          hex::FeatureSet features) {
     LevelMesh level;
@@ -39,6 +83,7 @@ LevelMesh coarsest_level(HexMesh mesh, hex::EdgeTable edges, hex::BoundaryQuads 
     level.edges = std::move(edges);
     level.boundary = std::move(boundary);
     level.features = std::move(features);
+    level.patch_of_quad = find_patches(level);
     return level;
 }
 

@@ -1,4 +1,5 @@
 #include "descent.h"
+#include "face_points.h"
 #include "jacobian_penalty.h"
 
 #include <hex/base/parallel.h>
@@ -302,16 +303,11 @@ class Repair {
 }  // namespace
 
 std::vector<char> boundary_functions(const BezierSpline& spline) {
-    // Points of the face at each end of each axis; faces of hexahedron.h.
-    constexpr std::array<std::array<std::size_t, 2>, 6> face = {
-        {{2, 0}, {1, 0}, {0, 3}, {1, 3}, {0, 0}, {2, 3}}};
     std::vector<char> flags(spline.function_count(), 0);
-    for (std::size_t e = 0; e < spline.boundary_faces.size(); ++e) {
+    for (std::size_t e = 0; e < spline.boundary_patch.size(); ++e) {
         for (std::size_t f = 0; f < 6; ++f) {
-            if ((spline.boundary_faces[e] >> f & 1U) == 0) continue;
-            for (std::size_t p = 0; p < 64; ++p) {
-                const std::array<std::size_t, 3> at = {p % 4, p / 4 % 4, p / 16};
-                if (at[face[f][0]] != face[f][1]) continue;
+            if (spline.boundary_patch[e][f] < 0) continue;
+            for (const std::size_t p : face_points(f)) {
                 for (const std::uint32_t function : spline.rows[spline.elements[e][p]].columns)
                     flags[function] = 1;
             }

@@ -425,6 +425,13 @@ Subdivision subdivide_numbered(const LevelMesh& coarse, Numbering numbering,
     fine.faces = face_table(fine.mesh);
     fine.stars = hex::vertex_cells(fine.mesh);
     fine.boundary = inherit_boundary(coarse, fine.mesh, parents);
+    fine.patch_of_quad.reserve(fine.boundary.size());
+    for (const HalfFaceId h : fine.boundary.half_faces) {
+        const HalfFaceId parent =
+            HexMesh::half_face(parents[HexMesh::cell_of(h).index() / 8], HexMesh::local_face(h));
+        fine.patch_of_quad.push_back(
+            coarse.patch_of_quad[coarse.boundary.quad_of_half_face[parent.index()].index()]);
+    }
     mark_ends(fine);
     fine.features = inherit_features(coarse, fine, numbering);
     result.origin = std::move(numbering.origin);

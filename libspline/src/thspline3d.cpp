@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <unordered_set>
 
 namespace spline {
 
@@ -38,9 +39,37 @@ LevelMesh input_level(const hex::HexMesh& mesh, const SplineOptions& options) {
     return coarsest_level(mesh, std::move(edges), std::move(boundary), std::move(features));
 }
 
+/// The lists, completed level by level with what the regions ask for: a level's elements must be there before
+/// they can be chosen.
 Hierarchy refine(LevelMesh coarsest, const SplineOptions& options, const hex::Context& context) {
     try {
-        return build_hierarchy(std::move(coarsest), options.refinement, options.closure, context);
+        int deepest = 0;
+        for (const RefineRegion& region : options.regions) deepest = std::max(deepest, region.level);
+        if (deepest == 0)
+            return build_hierarchy(std::move(coarsest), options.refinement, options.closure, context);
+        auto lists = options.refinement;
+        lists.resize(std::max(lists.size(), static_cast<std::size_t>(deepest)));
+        for (std::size_t l = 0; l < static_cast<std::size_t>(deepest); ++l) {
+            const std::vector<std::vector<std::int64_t>> below(
+                lists.begin(), lists.begin() + static_cast<std::ptrdiff_t>(l));
+            const Hierarchy so_far = build_hierarchy(coarsest, below, options.closure, context);
+            if (so_far.levels.size() <= l) break;
+            // Elements that closure added below may be asked for, too; their ids are those of a list that
+            // names them.
+            for (std::size_t k = 0; k < l; ++k) {
+                lists[k].clear();
+                for (const CellId c : so_far.levels[k].refined) lists[k].push_back(c.value());
+            }
+            std::unordered_set<std::int64_t> listed(lists[l].begin(), lists[l].end());
+            for (const RefineRegion& region : options.regions) {
+                if (region.level <= static_cast<int>(l)) continue;
+                for (const std::int64_t e :
+                     elements_in(region, so_far.levels[l].control, so_far.levels[l].domain_cells)) {
+                    if (listed.insert(e).second) lists[l].push_back(e);
+                }
+            }
+        }
+        return build_hierarchy(std::move(coarsest), lists, options.closure, context);
     } catch (const hex::Error& error) {
         throw options.refinement_origin.empty() ? error : error.located(options.refinement_origin);
     }
@@ -104,12 +133,13 @@ void extract(const HierarchyLevel& level, std::size_t number, const SparseRows* 
     });
     for (const CellId c : cells) {
         spline.element_cell.push_back(c.value());
-        unsigned faces = 0;
+        std::array<std::int32_t, 6> patches;
         for (int f = 0; f < 6; ++f) {
-            const hex::HalfFaceId h = hex::HexMesh::half_face(c, f);
-            if (level.control.boundary.quad_of_half_face[h.index()].valid()) faces |= 1U << f;
+            const hex::QuadId q =
+                level.control.boundary.quad_of_half_face[hex::HexMesh::half_face(c, f).index()];
+            patches[static_cast<std::size_t>(f)] = q.valid() ? level.control.patch_of_quad[q.index()] : -1;
         }
-        spline.boundary_faces.push_back(static_cast<std::uint8_t>(faces));
+        spline.boundary_patch.push_back(patches);
     }
 
     // Points in the order of their first use: what an element needs lies close together.

@@ -110,7 +110,6 @@ class BrokenBext : public testing::TestWithParam<Broken> {};
 
 const Broken broken_files[] = {
     {"magic", "B E X T", "B E X X", "does not start with", 1},
-    {"version_2", "type hex", "2.0 hex", "BEXT 2.0", 2},
     {"type", "type hex", "type tet", "type 'tet'", 2},
     {"node_count", "nodeN 8", "nodeN 9", "nodeN says 9 control points, there are 8", 0},
     {"too_many_nodes", "nodeN 8", "nodeN 7", "more control points than nodeN", 12},

@@ -26,8 +26,9 @@ struct BezierSpline {
 
     std::vector<std::uint16_t> element_level;  ///< of the hierarchy; 0 when not known
     std::vector<std::uint32_t> element_cell;   ///< cell in the mesh of that level
-    /// Bit f: local face f of the element lies on the boundary of the solid. Empty when not known.
-    std::vector<std::uint8_t> boundary_faces;
+    /// Patch of the solid's boundary on which each local face of the element lies, -1 inside: boundary quads
+    /// that hang together across smooth edges are one patch. Empty when not known.
+    std::vector<std::array<std::int32_t, 6>> boundary_patch;
 
     std::size_t element_count() const { return elements.size(); }
     std::size_t function_count() const { return control_points.size(); }

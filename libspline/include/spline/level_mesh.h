@@ -30,6 +30,9 @@ struct LevelMesh {
     FaceTable faces;
     hex::BoundaryQuads boundary;  ///< only quads of the solid's boundary
     hex::FeatureSet features;
+    /// Patch of each boundary quad: quads that hang together across smooth edges. Numbered in the order of
+    /// the quads of level 0; a quad of a finer level is on its parent's.
+    std::vector<std::int32_t> patch_of_quad;
     hex::CompressedRows<hex::CellId> stars;  ///< cells around each vertex, ascending
     /// Cells are missing around this vertex or edge: its mesh ends here, but not the solid. Never so at level
     /// 0, nor at a vertex of an element of the domain.

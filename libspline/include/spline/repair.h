@@ -41,7 +41,7 @@ struct RepairReport {
 RepairReport repair_jacobian(BezierSpline& spline, JacobianReport& verdict, const RepairOptions& options = {},
                              const hex::Context& context = {});
 
-/// One flag a control point: it moves Bezier points on the boundary (BezierSpline::boundary_faces).
+/// One flag a control point: it moves Bezier points on the boundary (BezierSpline::boundary_patch).
 std::vector<char> boundary_functions(const BezierSpline& spline);
 
 }  // namespace spline

@@ -14,6 +14,7 @@
 #include <hex/volume/hex_mesh.h>
 #include <spline/bezier.h>
 #include <spline/level_mesh.h>
+#include <spline/refine_region.h>
 
 #include <cstdint>
 #include <map>
@@ -37,6 +38,8 @@ struct SplineOptions {
     /// Entry l: elements of level l to refine (lev_rfid.txt), 0-based in the cell order of that level's mesh.
     /// Level 0 is the mesh after global refinement.
     std::vector<std::vector<std::int64_t>> refinement;
+    /// Elements to refine by what they are or where, besides those listed; applied after the lists.
+    std::vector<RefineRegion> regions;
     /// Use only the first so many entries of `refinement`.
     std::optional<int> levels;
     /// Complete the lists so that functions are continuous across levels (hierarchy.h). Without it the lists

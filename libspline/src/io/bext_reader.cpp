@@ -1,11 +1,11 @@
+#include "text_input.h"
+
 #include <hex/base/error.h>
 #include <hex/io/number_text.h>
 #include <spline/io/bext.h>
+#include <spline/io/bext2.h>
 
 #include <algorithm>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <string>
 #include <string_view>
 
@@ -14,28 +14,6 @@ namespace {
 
 using hex::Error;
 using hex::ErrorKind;
-
-std::string read_whole(const std::filesystem::path& path) {
-    std::error_code problem;
-    if (std::filesystem::is_directory(path, problem))
-        throw Error(ErrorKind::bad_input, "is a directory, not a BEXT file", path.string());
-    std::ifstream file(path, std::ios::binary | std::ios::ate);
-    if (!file)
-        throw Error(ErrorKind::bad_input, std::string("cannot be opened (") + std::strerror(errno) + ")",
-                    path.string());
-    std::string text(static_cast<std::size_t>(std::max<std::streamoff>(0, file.tellg())), '\0');
-    file.seekg(0);
-    file.read(text.data(), static_cast<std::streamsize>(text.size()));
-    if (!file) throw Error(ErrorKind::bad_input, "cannot be read", path.string());
-    return text;
-}
-
-std::string quoted(std::string_view word) {
-    std::string text(1, '\'');
-    text.append(word);
-    text += '\'';
-    return text;
-}
 
 /// Words separated by blanks, with their line.
 class Words {
@@ -123,8 +101,6 @@ class Reader {
                 words_.fail("is not a BEXT file: it does not start with 'B E X T'");
         }
         const std::string_view word = words_.next("type");
-        if (word.starts_with("2"))
-            words_.fail("is BEXT " + std::string(word), ErrorKind::unsupported, "only BEXT 1 can be read");
         if (word != "type") words_.fail(quoted(word) + " where 'type' should be");
         const std::string_view type = words_.next("hex");
         if (type != "hex")
@@ -220,6 +196,7 @@ class Reader {
 
 BezierSpline read_bext(const std::filesystem::path& path) {
     const std::string text = read_whole(path);
+    if (text.starts_with("B E X T 2")) return to_spline(read_bext2(path));
     return Reader(path, text).read();
 }
 

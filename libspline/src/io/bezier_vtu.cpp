@@ -1,10 +1,14 @@
-#include <hex/io/number_text.h>
+#include <hex/base/error.h>
+#include <hex/base/parallel.h>
 #include <hex/io/output_file.h>
 #include <spline/io/bezier_vtu.h>
+
+#include <zlib.h>
 
 #include <bit>
 #include <cstring>
 #include <string>
+#include <vector>
 
 namespace spline::io {
 namespace {
@@ -39,81 +43,113 @@ constexpr std::array<std::uint8_t, 64> vtk_order() {
     return order;
 }
 
-/// Writes the arrays after the XML in one pass: every array's size is known before its bytes are.
+/// Arrays after the XML, packed by zlib in blocks. The XML of an array gives its offset, so all are packed
+/// first; only their packed bytes are held.
 class AppendedData {
   public:
-    /// The XML of an array, which then starts at the present offset.
-    std::string declare(const char* name, const char* type, int components, std::size_t bytes) {
+    explicit AppendedData(std::filesystem::path path) : path_(std::move(path)) {}
+
+    /// Packs `count` values, `make(i)` each, and returns the XML of the array.
+    template <class Value, class Make>
+    std::string add(const char* name, const char* type, int components, std::size_t count, const Make& make) {
+        std::string bytes(count * sizeof(Value), '\0');
+        hex::parallel_for(
+            count,
+            [&](std::size_t i) {
+                const Value value = make(i);
+                std::memcpy(bytes.data() + i * sizeof(Value), &value, sizeof(Value));
+            },
+            4096);
         std::string xml = "<DataArray type=\"" + std::string(type) + "\" Name=\"" + name + "\"";
         if (components > 1) xml += " NumberOfComponents=\"" + std::to_string(components) + "\"";
         xml += " format=\"appended\" offset=\"" + std::to_string(offset_) + "\"/>\n";
-        offset_ += sizeof(std::uint64_t) + bytes;
+        pack(bytes);
         return xml;
     }
+    const std::vector<std::string>& pieces() const { return pieces_; }
 
   private:
-    std::size_t offset_ = 0;
-};
+    static constexpr std::size_t block_size = std::size_t{1} << 18;
 
-template <class Value>
-void put(hex::io::OutputFile& file, Value value) {
-    char bytes[sizeof(Value)];
-    std::memcpy(bytes, &value, sizeof(Value));
-    file.buffer().append(bytes, sizeof(Value));
-    file.flush_if_large();
-}
+    void pack(const std::string& bytes) {
+        const std::size_t blocks = (bytes.size() + block_size - 1) / block_size;
+        std::vector<std::string> packed(blocks);
+        hex::parallel_for(
+            blocks,
+            [&](std::size_t b) {
+                const std::size_t begin = b * block_size, size = std::min(block_size, bytes.size() - begin);
+                uLongf length = ::compressBound(size);
+                packed[b].resize(length);
+                const int status =
+                    ::compress2(reinterpret_cast<Bytef*>(packed[b].data()), &length,
+                                reinterpret_cast<const Bytef*>(bytes.data() + begin), size, Z_BEST_SPEED);
+                if (status != Z_OK)
+                    throw hex::Error(hex::ErrorKind::output, "an array cannot be packed", path_.string());
+                packed[b].resize(length);
+            },
+            1);
+        // Number of blocks, their size, that of the last one when it is smaller, packed sizes.
+        std::string header;
+        const auto put = [&](std::uint64_t value) {
+            char text[sizeof value];
+            std::memcpy(text, &value, sizeof value);
+            header.append(text, sizeof value);
+        };
+        put(blocks);
+        put(block_size);
+        put(bytes.size() % block_size);
+        for (const std::string& block : packed) put(block.size());
+        packed.insert(packed.begin(), std::move(header));
+        for (std::string& piece : packed) {
+            offset_ += piece.size();
+            pieces_.push_back(std::move(piece));
+        }
+    }
+
+    std::filesystem::path path_;
+    std::size_t offset_ = 0;
+    std::vector<std::string> pieces_;
+};
 
 }  // namespace
 
 void write_bezier_vtu(const std::filesystem::path& path, const BezierSpline& spline) {
     const std::vector<BezierPoint> points = bezier_points(spline);
     const std::size_t cells = spline.element_count();
-    const auto sizes = [&](std::size_t count, std::size_t each) { return std::uint64_t{count * each}; };
+    constexpr auto order = vtk_order();
 
-    AppendedData data;
-    hex::io::OutputFile file(path);
+    AppendedData data(path);
     std::string xml =
         "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"2.1\" byte_order=\"";
     xml += std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
-    xml += "\" header_type=\"UInt64\">\n<UnstructuredGrid>\n<Piece NumberOfPoints=\"" +
-           std::to_string(points.size()) + "\" NumberOfCells=\"" + std::to_string(cells) + "\">\n";
-    // One statement an array: offsets depend on the order of declaration.
+    xml += "\" header_type=\"UInt64\" compressor=\"vtkZLibDataCompressor\">\n<UnstructuredGrid>\n";
+    xml += "<Piece NumberOfPoints=\"" + std::to_string(points.size()) + "\" NumberOfCells=\"";
+    xml += std::to_string(cells) + "\">\n";
+    // One statement an array: offsets depend on the order.
     xml += "<PointData RationalWeights=\"RationalWeights\">\n";
-    xml += data.declare("RationalWeights", "Float64", 1, sizes(points.size(), 8));
+    xml += data.add<double>("RationalWeights", "Float64", 1, points.size(),
+                            [&](std::size_t i) { return points[i][3]; });
     xml += "</PointData>\n<CellData HigherOrderDegrees=\"HigherOrderDegrees\">\n";
-    xml += data.declare("HigherOrderDegrees", "Float64", 3, sizes(cells, 24));
-    xml += data.declare("level", "UInt16", 1, sizes(cells, 2));
-    xml += data.declare("element", "UInt32", 1, sizes(cells, 4));
+    xml += data.add<double>("HigherOrderDegrees", "Float64", 3, 3 * cells, [](std::size_t) { return 3.0; });
+    xml += data.add<std::uint16_t>("level", "UInt16", 1, cells,
+                                   [&](std::size_t i) { return spline.element_level[i]; });
+    xml += data.add<std::uint32_t>("element", "UInt32", 1, cells,
+                                   [&](std::size_t i) { return spline.element_cell[i]; });
     xml += "</CellData>\n<Points>\n";
-    xml += data.declare("Points", "Float64", 3, sizes(points.size(), 24));
+    xml += data.add<double>("Points", "Float64", 3, 3 * points.size(),
+                            [&](std::size_t i) { return points[i / 3][static_cast<Eigen::Index>(i % 3)]; });
     xml += "</Points>\n<Cells>\n";
-    xml += data.declare("connectivity", "Int64", 1, sizes(cells, 64 * 8));
-    xml += data.declare("offsets", "Int64", 1, sizes(cells, 8));
-    xml += data.declare("types", "UInt8", 1, cells);
+    xml += data.add<std::int64_t>("connectivity", "Int64", 1, 64 * cells, [&](std::size_t i) {
+        return std::int64_t{spline.elements[i / 64][order[i % 64]]};
+    });
+    xml += data.add<std::int64_t>("offsets", "Int64", 1, cells,
+                                  [](std::size_t c) { return static_cast<std::int64_t>(64 * (c + 1)); });
+    xml += data.add<std::uint8_t>("types", "UInt8", 1, cells, [](std::size_t) { return std::uint8_t{79}; });
     xml += "</Cells>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
-    file.write(xml);
 
-    put(file, sizes(points.size(), 8));
-    for (const BezierPoint& p : points) put(file, p[3]);
-    put(file, sizes(cells, 24));
-    for (std::size_t i = 0; i < 3 * cells; ++i) put(file, 3.0);
-    put(file, sizes(cells, 2));
-    for (const std::uint16_t level : spline.element_level) put(file, level);
-    put(file, sizes(cells, 4));
-    for (const std::uint32_t cell : spline.element_cell) put(file, cell);
-    put(file, sizes(points.size(), 24));
-    for (const BezierPoint& p : points) {
-        for (Eigen::Index a = 0; a < 3; ++a) put(file, p[a]);
-    }
-    put(file, sizes(cells, 64 * 8));
-    constexpr auto order = vtk_order();
-    for (const auto& element : spline.elements) {
-        for (const std::uint8_t p : order) put(file, std::int64_t{element[p]});
-    }
-    put(file, sizes(cells, 8));
-    for (std::size_t c = 1; c <= cells; ++c) put(file, static_cast<std::int64_t>(64 * c));
-    put(file, std::uint64_t{cells});
-    for (std::size_t c = 0; c < cells; ++c) put(file, std::uint8_t{79});
+    hex::io::OutputFile file(path);
+    file.write(xml);
+    for (const std::string& piece : data.pieces()) file.write(piece);
     file.write("\n</AppendedData>\n</VTKFile>\n");
     file.commit();
 }

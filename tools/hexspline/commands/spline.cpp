@@ -8,9 +8,13 @@
 
 #include <hex/base/error.h>
 #include <hex/io/list_file.h>
+#include <spline/fit.h>
 #include <spline/io/bext.h>
+#include <spline/io/bext2.h>
 #include <spline/io/bezier_vtu.h>
 #include <spline/io/control_mesh_file.h>
+#include <spline/io/deck.h>
+#include <spline/io/spline_json.h>
 #include <spline/jacobian.h>
 #include <spline/repair.h>
 #include <spline/spline.h>
@@ -25,7 +29,7 @@ namespace {
 /// Value of -l without a number.
 constexpr int all_levels = -1;
 
-enum class Format { bext, vtu };
+enum class Format { bext, bext2, vtu, json };
 
 std::string lower_case(std::string text) {
     std::transform(text.begin(), text.end(), text.begin(),
@@ -38,16 +42,21 @@ Format output_format(const CommandLine& line) {
     if (line.given("format")) {
         const auto name = line.get<std::string>("format");
         if (name == "bext") return Format::bext;
+        if (name == "bext2") return Format::bext2;
         if (name == "vtu") return Format::vtu;
-        throw hex::Error(hex::ErrorKind::usage, "unknown --format '" + name + "'", {}, "known: bext, vtu");
+        if (name == "json") return Format::json;
+        throw hex::Error(hex::ErrorKind::usage, "unknown --format '" + name + "'", {},
+                         "known: bext, bext2, vtu, json");
     }
     if (!line.given("output")) return Format::bext;
     const std::string extension = lower_case(line.output().extension().string());
     if (extension == ".vtu") return Format::vtu;
-    constexpr std::array meshes = {".vtk", ".k", ".key", ".mesh", ".stl", ".obj", ".off", ".ply", ".json"};
+    if (extension == ".json") return Format::json;
+    if (extension == ".bxt" || extension == ".bext2") return Format::bext2;
+    constexpr std::array meshes = {".vtk", ".k", ".key", ".mesh", ".stl", ".obj", ".off", ".ply"};
     if (std::find(meshes.begin(), meshes.end(), extension) != meshes.end())
         throw hex::Error(hex::ErrorKind::usage, "a spline cannot be written as " + extension,
-                         line.output().string(), "use .BEXT or .vtu, or say --format");
+                         line.output().string(), "use .BEXT, .bxt, .vtu or .json, or say --format");
     return Format::bext;
 }
 
@@ -56,7 +65,8 @@ Format output_format(const CommandLine& line) {
 std::filesystem::path output_path(const CommandLine& line, Format format) {
     if (line.given("output")) return line.output();
     std::filesystem::path path = line.input();
-    path.replace_filename(path.stem().string() + (format == Format::vtu ? "_spline.vtu" : "_BEXT.txt"));
+    constexpr std::array endings = {"_BEXT.txt", "_BEXT2.bxt", "_spline.vtu", "_spline.json"};
+    path.replace_filename(path.stem().string() + endings[static_cast<std::size_t>(format)]);
     return path;
 }
 
@@ -101,6 +111,10 @@ spline::SplineOptions options_of(const CommandLine& line) {
         }
     } else if (line.given("refine-file")) {
         throw hex::Error(hex::ErrorKind::usage, "--refine-file has no effect without -l");
+    }
+    if (line.given("refine")) {
+        for (const auto& text : line.get<std::vector<std::string>>("refine"))
+            options.regions.push_back(spline::parse_region(text));
     }
     options.closure = !line.is_set("no-closure");
     options.force = line.is_set("force");
@@ -199,6 +213,70 @@ Json settle_jacobians(const CommandLine& line, spline::SplineResult& result,
     return report;
 }
 
+Json to_json(const spline::FitDistance& distance) {
+    return {{"to_surface_rms", distance.to_surface_rms},
+            {"to_surface_max", distance.to_surface_max},
+            {"from_surface_rms", distance.from_surface_rms},
+            {"from_surface_max", distance.from_surface_max}};
+}
+
+/// With --fit the boundary is moved onto --surface; without, it is only measured.
+Json fit_to_surface(const CommandLine& line, spline::SplineResult& result, spline::JacobianReport& verdict) {
+    if (!line.given("surface")) {
+        if (line.is_set("fit")) throw hex::Error(hex::ErrorKind::usage, "--fit needs --surface");
+        return {};
+    }
+    const hex::TriangleMesh surface = load_triangles(line, line.get<std::string>("surface"));
+    if (!line.is_set("fit"))
+        return {{"distance", to_json(spline::fit_distance(result.spline, surface, line.context()))}};
+    const auto report = spline::fit(result.spline, verdict, surface, {}, line.context());
+    spline::update_control_meshes(result);
+    line.info("fitted: root mean square distance of the boundary from the surface " +
+              std::to_string(report.before.to_surface_rms) + " -> " +
+              std::to_string(report.after.to_surface_rms) + ", largest " +
+              std::to_string(report.before.to_surface_max) + " -> " +
+              std::to_string(report.after.to_surface_max));
+    return {{"before", to_json(report.before)},
+            {"after", to_json(report.after)},
+            {"moved", report.moved},
+            {"largest_move", report.largest_move},
+            {"held_back", report.held_back}};
+}
+
+void write_spline(const CommandLine& line, const std::filesystem::path& path, Format format,
+                  const spline::BezierSpline& spline) {
+    switch (format) {
+        case Format::bext:
+            return spline::io::write_bext(path, spline, line.context());
+        case Format::bext2:
+            return spline::io::write_bext2(path, spline, line.context());
+        case Format::vtu:
+            return spline::io::write_bezier_vtu(path, spline);
+        case Format::json:
+            return spline::io::write_spline_json(path, spline);
+    }
+}
+
+/// The deck that --deck asks for, beside the BEXT. Returns its path.
+std::string write_deck(const CommandLine& line, const std::filesystem::path& bext, Format format,
+                       const spline::BezierSpline& spline) {
+    if (!line.given("deck")) return {};
+    spline::io::DeckOptions options;
+    const auto kind = line.get<std::string>("deck");
+    if (kind == "static")
+        options.kind = spline::io::DeckKind::linear_static;
+    else if (kind != "eigen")
+        throw hex::Error(hex::ErrorKind::usage, "unknown --deck '" + kind + "'", {}, "known: eigen, static");
+    if (format != Format::bext && format != Format::bext2)
+        throw hex::Error(hex::ErrorKind::usage, "--deck needs a BEXT file as output");
+    options.bext = bext.filename().string();
+    options.bext2 = format == Format::bext2;
+    std::filesystem::path path = bext;
+    path.replace_filename(bext.stem().string() + "_" + kind + ".k");
+    spline::io::write_deck(path, spline, options);
+    return path.string();
+}
+
 int run(CommandLine& line) {
     const Format format = output_format(line);
     const auto path = output_path(line, format);
@@ -213,17 +291,18 @@ int run(CommandLine& line) {
     line.log(result.report.diagnostics, line.input().string());
     spline::JacobianReport verdict = spline::certify(result.spline, {}, line.context());
     const Json repair = settle_jacobians(line, result, verdict);
+    const Json fit = fit_to_surface(line, result, verdict);
 
-    if (format == Format::vtu)
-        spline::io::write_bezier_vtu(path, result.spline);
-    else
-        spline::io::write_bext(path, result.spline, line.context());
+    write_spline(line, path, format, result.spline);
+    const std::string deck = write_deck(line, path, format, result.spline);
     line.info(path.string() + ": " + std::to_string(result.spline.function_count()) + " control points, " +
               std::to_string(result.spline.element_count()) + " elements");
     Json report = to_json(result.report);
     report["jacobian"] = to_json(verdict);
     if (!repair.is_null()) report["repair"] = repair;
+    if (!fit.is_null()) report["fit"] = fit;
     report["output"] = path.string();
+    if (!deck.empty()) report["deck"] = deck;
     if (line.given("control-mesh")) {
         Json files = Json::array();
         for (const auto& file :
@@ -237,7 +316,8 @@ int run(CommandLine& line) {
 
 void describe(CommandLine& line) {
     line.add_input("hexahedral mesh");
-    line.add_output("spline: .vtu, else BEXT 1; default: INPUT_BEXT.txt beside the input", false);
+    line.add_output(
+        "spline: .vtu, .json, .bxt (BEXT 2.0), else BEXT 1; default: INPUT_BEXT.txt beside the input", false);
     line.add_switch("spline,S", "accepted, as the paper writes it");
     line.add("sharp,s", value<int>("0|1|2")->default_value(0),
              "sharp features: none, by angle, from --sharp-file");
@@ -250,11 +330,20 @@ void describe(CommandLine& line) {
                               "refine locally: all levels of --refine-file, or so many");
     line.add("refine-file", value<std::string>(),
              "lines 'level element' (default: lev_rfid.txt beside the input)");
+    line.add(
+        "refine", boost::program_options::value<std::vector<std::string>>()->composing()->value_name("WHERE"),
+        "refine box:x0,y0,z0,x1,y1,z1[:level], sphere:x,y,z,radius[:level], near:FILE[:level] (points or "
+        "patch numbers) or worst:N%[:level]; may be repeated");
     line.add_switch("no-closure",
                     "refine exactly what is listed, though the spline may not be continuous then");
-    line.add("format", value<std::string>("bext|vtu"), "format of the output, whatever its extension");
+    line.add("format", value<std::string>("bext|bext2|vtu|json"),
+             "format of the output, whatever its extension");
+    line.add("deck", value<std::string>("eigen|static"),
+             "also write an LS-DYNA deck beside the BEXT, with a node set for each boundary patch");
     line.add("control-mesh", value<std::string>("PREFIX"),
              "also write PREFIX_hmesh<level>_CM.vtk of every level");
+    line.add("surface", value<std::string>(), "closed surface of the part; its distance is in the report");
+    line.add_switch("fit", "move control points so that the spline's boundary lies on --surface");
     line.add_switch("repair-jacobian", "move control points until no element folds; this is the default");
     line.add_switch("no-repair", "leave elements that fold as they are");
     line.add("max-deviation", value<double>("PCT")->default_value(1.0, "1"),

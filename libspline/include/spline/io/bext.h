@@ -21,8 +21,8 @@ void write_bext(const std::filesystem::path& path, const BezierSpline& spline,
 /// row has no coefficient is left out.
 ///
 /// Throws Error{bad_input} with `file:line` for anything that is not as docs/bext.md says, counts that
-/// disagree, ids out of range, numbers that are not finite, weights <= 0; Error{unsupported} for BEXT 2,
-/// other element types and other degrees.
+/// disagree, ids out of range, numbers that are not finite, weights <= 0; Error{unsupported} for other
+/// element types and other degrees. A BEXT 2.0 file is read by read_bext2 and to_spline (bext2.h).
 BezierSpline read_bext(const std::filesystem::path& path);
 
 }  // namespace spline::io

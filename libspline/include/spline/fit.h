@@ -1,0 +1,46 @@
+/// \file fit.h
+/// Moves control points so that the boundary of the spline lies on the part.
+///
+/// The boundary of a spline built on a mesh lies inside the mesh's (docs/spline.md). Fitting is least squares
+/// with a fairness term, boundary first, then inside, and no element that was proved positive folds.
+#pragma once
+
+#include <hex/base/context.h>
+#include <hex/surface/mesh_types.h>
+#include <spline/bezier.h>
+#include <spline/jacobian.h>
+
+namespace spline {
+
+/// Distances between the boundary of a spline and a surface, at samples: 5 x 5 of each boundary face;
+/// vertices and triangle centres of the surface (of large ones evenly many, 60,000 at most).
+struct FitDistance {
+    double to_surface_rms = 0.0, to_surface_max = 0.0;      ///< of the spline's boundary from the surface
+    double from_surface_rms = 0.0, from_surface_max = 0.0;  ///< of the surface from the spline's boundary
+};
+
+struct FitOptions {
+    int rounds = 15;          ///< closest points are looked up anew in each, >= 1
+    double fairness = 1e-4;  ///< weight of differences of moves against distances, > 0
+    JacobianOptions jacobian;
+};
+
+struct FitReport {
+    FitDistance before, after;
+    std::size_t moved = 0;  ///< control points
+    double largest_move = 0.0;
+    std::size_t held_back = 0;         ///< control points that had to stay (partly), or an element would fold
+    std::vector<std::int64_t> folded;  ///< elements proved positive before but not after: always empty
+};
+
+/// `verdict` must be `certify` of the spline, and is that of the result. Throws Error{unsupported} for
+/// rational splines and for those whose boundary is not known (BezierSpline::boundary_patch). The same result
+/// for any number of threads.
+FitReport fit(BezierSpline& spline, JacobianReport& verdict, const hex::TriangleMesh& surface,
+              const FitOptions& options = {}, const hex::Context& context = {});
+
+/// Only measures.
+FitDistance fit_distance(const BezierSpline& spline, const hex::TriangleMesh& surface,
+                         const hex::Context& context = {});
+
+}  // namespace spline

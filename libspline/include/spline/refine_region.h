@@ -1,0 +1,41 @@
+/// \file refine_region.h
+/// Elements to refine by place or quality instead of by number.
+#pragma once
+
+#include <hex/base/linear_algebra.h>
+#include <spline/level_mesh.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace spline {
+
+struct RefineRegion {
+    enum class Kind : std::uint8_t {
+        box,      ///< elements whose bounding box meets `box`
+        sphere,   ///< elements whose bounding box comes within `radius` of `center`
+        points,   ///< for each point the element around or nearest to it
+        patches,  ///< elements with a face on one of these patches (LevelMesh::patch_of_quad)
+        worst,    ///< the `share` of the elements with the least scaled Jacobian, at least one
+    };
+    Kind kind = Kind::box;
+    hex::BoundingBox box;
+    hex::Vec3 center = hex::Vec3::Zero();
+    double radius = 0.0;
+    std::vector<hex::Vec3> points;
+    std::vector<std::int32_t> patches;
+    double share = 0.0;  ///< in (0, 1]
+    int level = 1;       ///< elements are divided until they are of this level, >= 1
+};
+
+/// The elements (0-based, ascending) of the first `domain_cells` of a level that a region asks to divide.
+std::vector<std::int64_t> elements_in(const RefineRegion& region, const LevelMesh& level,
+                                      std::size_t domain_cells);
+
+/// Parses `box:x0,y0,z0,x1,y1,z1[:level]`, `sphere:x,y,z,radius[:level]`, `near:FILE[:level]`,
+/// `worst:N%[:level]`. FILE has a point `x y z` or a 0-based patch number on each line; '#' starts a comment.
+/// Throws Error{usage} for anything else, Error{bad_input} with `file:line` for the file.
+RefineRegion parse_region(const std::string& text);
+
+}  // namespace spline

@@ -1,0 +1,91 @@
+#!/usr/bin/env python3
+"""The subcommand spline: formats, refinement by place, decks, the report, messages and exit codes.
+
+    spline_test.py HEXSPLINE DATA
+"""
+import json
+import unittest
+
+from program import ROD, CommandTest
+
+
+class Spline(CommandTest):
+    def setUp(self):
+        super().setUp()
+        self.run_program('map', ROD / 'rod_patches.k', '-p', ROD / 'rod_blocks.k', '-s', 1, '-o', 'rod.vtk')
+
+    def spline(self, *arguments, code=0):
+        return self.run_program('spline', 'rod.vtk', '-s', 1, *arguments, code=code)
+
+    def report(self, *arguments):
+        self.spline(*arguments, '--json', 'report.json')
+        return json.loads((self.folder / 'report.json').read_text())
+
+    def test_the_format_follows_the_extension(self):
+        for name, start in (('a.BEXT', b'B E X T\ntype hex'), ('a.bxt', b'B E X T 2.0'), ('a.vtu', b'<?xml'),
+                            ('a.json', b'{"format": "hexspline spline"'), ('plain', b'B E X T\ntype hex')):
+            with self.subTest(name):
+                self.spline('-o', name)
+                self.assertTrue((self.folder / name).read_bytes().startswith(start))
+        self.spline('-o', 'b.txt', '--format', 'bext2')
+        self.assertEqual((self.folder / 'b.txt').read_bytes(), (self.folder / 'a.bxt').read_bytes())
+        self.spline('-o', 'a.stl', code=2)
+        self.spline('-o', 'a', '--format', 'step', code=2)
+
+    def test_json_holds_the_spline(self):
+        report = self.report('-o', 'a.json')
+        spline = json.loads((self.folder / 'a.json').read_text())
+        self.assertEqual(len(spline['control_points']), report['control_points'])
+        self.assertEqual(len(spline['elements']), report['elements'])
+        for functions, values in spline['bezier_points']:
+            self.assertEqual(len(functions), len(values))
+            self.assertAlmostEqual(sum(values), 1, 14)
+
+    def test_every_element_is_judged(self):
+        report = self.report('-o', 'a')
+        jacobian = report['jacobian']
+        self.assertEqual(jacobian['proved_positive'] + jacobian['proved_negative'] + jacobian['undecided'],
+                         report['elements'])
+        self.assertEqual(report['repair']['unmended'], [])
+        self.assertNotIn('repair', self.report('-o', 'a', '--no-repair'))
+
+    def test_refining_by_place(self):
+        plain = self.report('-o', 'a')
+        for where in ('worst:5%', 'sphere:0,0,0,1', 'box:-1,-1,-1,1,1,1'):
+            with self.subTest(where):
+                report = self.report('-o', 'a', '--refine', where)
+                self.assertEqual(report['elements'], plain['elements'] + 7 * report['levels'][0]['refined'])
+        self.spline('-o', 'a', '--refine', 'worst', code=2)
+        self.assertIn('missing', self.spline('-o', 'a', '--refine', 'near:missing', code=3).stderr)
+
+    def test_decks(self):
+        self.spline('-o', 'a.bext', '--deck', 'eigen')
+        deck = (self.folder / 'a_eigen.k').read_text()
+        self.assertIn('*INCLUDE_TRANSFORM\na.bext\n', deck)
+        self.assertIn('*CONTROL_IMPLICIT_EIGENVALUE', deck)
+        self.spline('-o', 'a.bxt', '--deck', 'static')
+        self.assertIn('*IGA_INCLUDE_BEZIER\na.bxt\n', (self.folder / 'a_static.k').read_text())
+        self.spline('-o', 'a.vtu', '--deck', 'eigen', code=2)
+        self.spline('-o', 'a', '--deck', 'modal', code=2)
+
+    def test_fit_brings_the_boundary_nearer_and_folds_nothing(self):
+        surface = ROD / 'rod_tri.k'
+        distance = self.report('-o', 'a', '--surface', surface)['fit']['distance']
+        report = self.report('-o', 'a', '--surface', surface, '--fit')
+        self.assertEqual(report['fit']['before'], distance)
+        self.assertLess(3 * report['fit']['after']['to_surface_rms'], distance['to_surface_rms'])
+        self.assertEqual(report['jacobian']['proved_negative'], 0)
+        self.spline('-o', 'a', '--fit', code=2)
+
+    def test_the_same_bytes_for_any_number_of_threads(self):
+        for name in ('a.bext', 'a.bxt', 'a.vtu', 'a.json'):
+            written = []
+            for threads in (1, 2):
+                self.spline('-o', name, '--threads', threads, '--refine', 'worst:5%', '--surface', ROD / 'rod_tri.k', '--fit')
+                written.append((self.folder / name).read_bytes())
+            with self.subTest(name):
+                self.assertEqual(*written)
+
+
+if __name__ == '__main__':
+    unittest.main()
