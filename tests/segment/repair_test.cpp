@@ -208,7 +208,6 @@ TEST(LabelRepair, NeverRaisesTheEnergyAndTellsEveryCost) {
     double cost = 0;
     for (const auto& record : repair.repairs) cost += record.cost;
     EXPECT_NEAR(cost, repair.score.infidelity - before.infidelity, 1e-9);
-    EXPECT_LT(repair.score.infidelity, 0.01);
 }
 
 }  // namespace

@@ -16,8 +16,11 @@
 #include <hex/quality/surface_distance.h>
 #include <spline/io/bext.h>
 #include <spline/io/bezier_vtu.h>
+#include <spline/jacobian.h>
+#include <spline/repair.h>
 #include <spline/spline.h>
 
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <fstream>
@@ -36,10 +39,13 @@ constexpr double target_growth = 1.5;
 constexpr double last_target = 8000;
 /// What follows means: no farther apart than this, in percent of the diagonal, as mapped and after
 /// improvement.
-constexpr double wished_mapped_distance = 1.55;
-constexpr double wished_final_distance = 1.6;
+constexpr double wished_distance = 1.6;
 /// How often a mesh is made anew because the improved one is inverted or too far from the surface.
 constexpr int most_meshes = 3;
+/// SegmentOptions::attempt goes up to this.
+constexpr int last_attempt = 3;
+/// Other labels are tried while no more meshes than this were made in vain: that is what takes time.
+constexpr int most_late_failures = 1;
 
 std::size_t stage_index(const std::string& option, const std::string& name) {
     for (std::size_t i = 0; i < stage_names.size(); ++i) {
@@ -88,7 +94,9 @@ int Chain::run() {
         try {
             run_stage(stage);
         } catch (const RouteClosed& closed) {
-            take_voxel_route(closed.reason);
+            if (stage > polycube_stage) ++late_failures_;
+            line_.info("no valid mesh from these labels: " + closed.reason);
+            if (!take_other_labels()) take_voxel_route(closed.reason);
             stage = polycube_stage - 1;
         }
     }
@@ -155,24 +163,36 @@ void Chain::take_voxel_route(const std::string& reason) {
         throw hex::Error(hex::ErrorKind::no_result, "the route by labelling ends: " + reason,
                          line_.input().string(),
                          "allow --route auto, or give a segmentation and blocks by hand");
-    line_.info("the route by labelling ends: " + reason + "; taking the route by voxels");
+    line_.info("the route by labelling ends; taking the route by voxels");
     route_ = "voxel";
     report_["route_reason"] = reason;
     patches_.reset();
     blocks_.reset();
     mapped_.reset();
-    for (const char* key : {"patches", "corners", "block_structure", "improve"}) report_.erase(key);
+    for (const char* key : {"patches", "block_structure", "improve"}) report_.erase(key);
+    if (report_.contains("label_corners")) report_["corners"] = report_["label_corners"];
     for (const char* name : {"2-polycube.k", "2-patches.k"}) std::filesystem::remove(folder_ / name);
 }
 
 void Chain::segment() {
     surface_ = load_triangles(line_, line_.input());
+    label(0);
+}
+
+void Chain::label(int attempt) {
     hex::SegmentOptions options;
     options.boundary_weight = line_.get<double>("weight");
+    options.attempt = attempt;
     if (line_.given("weight")) options.method = "hbecvt";
     auto result = hex::segment(*surface_, options, line_.context());
+    if (std::find(tried_labels_.begin(), tried_labels_.end(), result.segmentation.labels) !=
+        tried_labels_.end())
+        return;
+    tried_labels_.push_back(result.segmentation.labels);
+    attempt_ = attempt;
     report_["charts"] = result.report.charts;
-    report_["corners"] = result.report.corners;
+    report_["corners"] = report_["label_corners"] = result.report.corners;
+    report_["label_attempt"] = attempt;
     Json repairs = Json::array();
     for (const auto& repair : result.report.repairs)
         repairs.push_back({{"repair", repair.repair},
@@ -184,6 +204,17 @@ void Chain::segment() {
     surface_ = hex::with_labels(std::move(*surface_), result.segmentation);
     hex::io::write_surface(folder_ / "1-segment.k", hex::to_soup(*surface_));
     segmentation_ = std::move(result.segmentation);
+}
+
+bool Chain::take_other_labels() {
+    // Only where this run made labels by the method that has others to offer.
+    if (tried_labels_.empty() || line_.given("weight") || late_failures_ > most_late_failures) return false;
+    const std::size_t tried = tried_labels_.size();
+    for (int attempt = attempt_ + 1; attempt <= last_attempt; ++attempt) {
+        label(attempt);
+        if (tried_labels_.size() > tried) return true;
+    }
+    return false;
 }
 
 void Chain::polycube() {
@@ -299,7 +330,7 @@ void Chain::map_as_fine_as_needed(double target) {
         const double apart = percent_apart(result.mesh);
         line_.info(std::to_string(result.mesh.cell_count()) + " hexahedra are within " +
                    std::to_string(apart) + " % of the diagonal of the surface");
-        if (apart <= wished_mapped_distance || target * target_growth > last_target) {
+        if (apart <= wished_distance || target * target_growth > last_target) {
             line_.log(result.report.diagnostics);
             mapped_ = std::move(result.mesh);
             mapped_target_ = target;
@@ -315,7 +346,7 @@ void Chain::improve() {
     hex::QualitySummary summary = hex::summarize(mesh, line_.context());
     if (route_ == "labelling") {
         for (int meshes = 1; meshes < most_meshes && mapped_target_ > 0 && size_is_chosen(); ++meshes) {
-            if (summary.inverted == 0 && percent_apart(mesh) <= wished_final_distance) break;
+            if (summary.inverted == 0 && percent_apart(mesh) <= wished_distance) break;
             line_.info("the improved mesh is inverted or too far from the surface; making a finer one");
             try {
                 map_as_fine_as_needed(mapped_target_ * target_growth);
@@ -380,8 +411,17 @@ void Chain::spline() {
     ::spline::SplineOptions options;
     options.features = hex::FeatureSource::angle;
     options.feature_cosine = line_.get<double>("sharp-cosine");
-    const auto result = ::spline::build(*improved_, options, line_.context());
+    auto result = ::spline::build(*improved_, options, line_.context());
     line_.log(result.report.diagnostics);
+    ::spline::JacobianReport jacobians = ::spline::certify(result.spline, {}, line_.context());
+    const auto repair = ::spline::repair_jacobian(result.spline, jacobians, {}, line_.context());
+    report_["spline_jacobians"] = {{"negative_before_repair", repair.negative_before},
+                                   {"negative", jacobians.negative.size()},
+                                   {"undecided", jacobians.undecided.size()}};
+    if (!jacobians.negative.empty())
+        line_.warn(
+            std::to_string(jacobians.negative.size()) +
+            " elements of the spline have a negative Jacobian: " + ::spline::describe_negative(jacobians));
     report_["control_points"] = result.spline.control_points.size();
     report_["bezier_elements"] = result.report.summary.elements;
     ::spline::io::write_bext(folder_ / "5-spline.bext", result.spline);

@@ -11,6 +11,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace cli {
 
@@ -37,6 +38,10 @@ class Chain {
     void run_stage(std::size_t stage);
     void make_folder();
     void choose_route(bool from_start);
+    /// Labels the surface: SegmentOptions::attempt.
+    void label(int attempt);
+    /// Labels it otherwise than before. Returns false when there is nothing else to try.
+    bool take_other_labels();
     void take_voxel_route(const std::string& reason);
 
     void segment();
@@ -69,6 +74,9 @@ class Chain {
     std::string route_ = "given";
     std::optional<hex::TriangleMesh> surface_;
     std::optional<hex::Segmentation> segmentation_;
+    std::vector<std::vector<int>> tried_labels_;
+    int attempt_ = 0;
+    int late_failures_ = 0;  ///< improved meshes that were not valid
     std::optional<hex::TriangleMesh> patches_;
     std::optional<hex::HexMesh> blocks_;
     std::optional<hex::HexMesh> mapped_;
