@@ -10,7 +10,7 @@
 namespace hex {
 
 struct HarmonicReport {
-    int iterations = 0;              ///< of conjugate gradients
+    int iterations = 0;               ///< of conjugate gradients
     std::size_t held_back_nodes = 0;  ///< nodes held back because an element got worse
 };
 

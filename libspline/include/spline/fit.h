@@ -20,7 +20,7 @@ struct FitDistance {
 };
 
 struct FitOptions {
-    int rounds = 15;          ///< closest points are looked up anew in each, >= 1
+    int rounds = 15;         ///< closest points are looked up anew in each, >= 1
     double fairness = 1e-4;  ///< weight of differences of moves against distances, > 0
     JacobianOptions jacobian;
 };

@@ -42,7 +42,8 @@ struct SegmentOptions {
     /// hbecvt: weight omega of the boundary-enhanced term, >= 0 (paper, equation of HBECVT; the published
     /// runs use 0.1).
     double boundary_weight = 0.1;
-    /// auto: 0 for the best labels it finds; 1, 2 and 3 for other ones, with fewer or more charts: what to try next when no polycube could be built from these.
+    /// auto: 0 for the best labels it finds; 1, 2 and 3 for other ones, with fewer or more charts: what to
+    /// try next when no polycube could be built from these.
     int attempt = 0;
     /// auto: labels that these triangles better not have, because charts there stood in the way of a
     /// polycube: each costs so much more as if its axis were 60 degrees farther from the normal.
