@@ -281,5 +281,26 @@ TEST(SegmentFromPatches, TellsWhatIsWrongWithThePatches) {
               2);
 }
 
+TEST(CompletePatches, KeepsWhatIsThereAndAddsWhatIsMissing) {
+    PolygonSoup box = test::box_surface(3, 2, 1, 4);
+    const std::vector<int> given = box.parts;
+    for (int& part : box.parts)
+        if (part == 2 || part == 5) part = part == 2 ? 0 : -3;
+    const CompletedPatches completed = complete_patches(make_triangle_mesh(box));
+    EXPECT_EQ(completed.triangles, 64U);
+    EXPECT_EQ(completed.parts, (std::vector<int>{7, 8}));
+    for (const auto f : completed.mesh.faces()) {
+        const int was = given[static_cast<std::size_t>(f.idx())];
+        EXPECT_EQ(completed.mesh.data(f).part, was == 2 ? 7 : was == 5 ? 8 : was);
+    }
+    EXPECT_TRUE(segment_from_patches(completed.mesh).report.violations.empty());
+}
+
+TEST(CompletePatches, AddsNothingToACompleteSurface) {
+    const CompletedPatches completed = complete_patches(make_triangle_mesh(test::box_surface(3, 2, 1)));
+    EXPECT_EQ(completed.triangles, 0U);
+    EXPECT_TRUE(completed.parts.empty());
+}
+
 }  // namespace
 }  // namespace hex

@@ -2,6 +2,7 @@
 
 #include "hexspline/element_size.h"
 #include "hexspline/inputs.h"
+#include "hexspline/surface_input.h"
 
 #include <hex/base/error.h>
 #include <hex/improve/improve.h>
@@ -175,7 +176,9 @@ void Chain::take_voxel_route(const std::string& reason) {
 }
 
 void Chain::segment() {
-    surface_ = load_triangles(line_, line_.input());
+    SurfaceInput input = load_surface_input(line_, line_.input());
+    surface_ = std::move(input.mesh);
+    report_["repair"] = std::move(input.repair);
     label(0);
 }
 

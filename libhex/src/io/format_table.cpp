@@ -2,6 +2,7 @@
 #include "io/formats.h"
 
 #include <hex/base/error.h>
+#include <hex/io/cad_file.h>
 #include <hex/io/mesh_file.h>
 #include <hex/io/number_text.h>
 
@@ -14,7 +15,7 @@ namespace {
 
 struct Format {
     FormatInfo info;
-    MeshData (*read)(const InputFile&);
+    MeshData (*read)(const InputFile&);  ///< none: by read_cad
     void (*write_surface)(OutputFile&, const PolygonSoup&, const PartNames&);
     void (*write_hexahedra)(OutputFile&, const HexMesh&, const Fields&);
 };
@@ -87,6 +88,18 @@ const std::vector<Format>& table() {
             {{"PLY", {".ply"}, true, true, false, false, true, false, 0, false, "text, exact"},
              read_ply,
              without_names<write_ply>,
+             nullptr},
+            {{"STEP", {".step", ".stp"}, true, false, false, false, true, false, 0, false, "-"},
+             nullptr,
+             nullptr,
+             nullptr},
+            {{"IGES", {".iges", ".igs"}, true, false, false, false, true, false, 0, false, "-"},
+             nullptr,
+             nullptr,
+             nullptr},
+            {{"Open CASCADE BREP", {".brep"}, true, false, false, false, true, false, 0, false, "-"},
+             nullptr,
+             nullptr,
              nullptr},
         };
         return list;
@@ -234,6 +247,7 @@ std::string extensions_of(bool FormatInfo::*flag) {
 }
 
 SurfaceFile read_surface(const std::filesystem::path& path) {
+    if (is_cad_file(path)) return read_cad(path);
     return to_surface(read_with(surface_reader, path), path);
 }
 
@@ -242,6 +256,7 @@ HexFile read_hex_mesh(const std::filesystem::path& path) {
 }
 
 MeshFile read_mesh_file(const std::filesystem::path& path) {
+    if (is_cad_file(path)) return read_cad(path);
     MeshData data = read_with(surface_reader, path);
     if (data.hexahedra.empty()) return to_surface(std::move(data), path);
     return to_hexahedra(std::move(data), path);

@@ -182,4 +182,31 @@ void write_face_list(const std::filesystem::path& path, std::span<const std::arr
     out.commit();
 }
 
+void write_feature_lines(const std::filesystem::path& path, std::span<const Vec3> points,
+                         std::span<const std::array<std::uint32_t, 2>> edges) {
+    OutputFile out(path);
+    std::vector<std::size_t> number(points.size(), 0);
+    std::size_t used = 0;
+    for (const auto& edge : edges) {
+        for (const std::uint32_t v : edge) {
+            if (number[v] != 0) continue;
+            number[v] = ++used;
+            out.buffer() += 'v';
+            for (int axis = 0; axis < 3; ++axis) {
+                out.buffer() += ' ';
+                append_number(out.buffer(), points[v][axis]);
+            }
+            out.buffer() += '\n';
+        }
+    }
+    for (const auto& [a, b] : edges) {
+        out.buffer() += "l ";
+        append_number(out.buffer(), number[a]);
+        out.buffer() += ' ';
+        append_number(out.buffer(), number[b]);
+        out.buffer() += '\n';
+    }
+    out.commit();
+}
+
 }  // namespace hex::io

@@ -3,7 +3,10 @@
 #include <hex/segment/segment.h>
 #include <hex/surface/patch_layout.h>
 
+#include <algorithm>
+#include <limits>
 #include <utility>
+#include <vector>
 
 namespace hex {
 namespace {
@@ -54,6 +57,41 @@ SegmentResult segment_from_patches(const TriangleMesh& mesh) {
         finding.severity = Severity::warning;
         report.violations.push_back(std::move(finding));
     }
+    return result;
+}
+
+CompletedPatches complete_patches(TriangleMesh mesh, const SegmentOptions& options, const Context& context) {
+    CompletedPatches result;
+    int last = 0;
+    for (const auto f : mesh.faces()) {
+        last = std::max(last, mesh.data(f).part);
+        if (mesh.data(f).part <= 0) ++result.triangles;
+    }
+    if (result.triangles > 0) {
+        const std::vector<int> labels = segment(mesh, options, context).segmentation.labels;
+        const auto label = [&](TriangleMesh::FaceHandle f) {
+            return labels[static_cast<std::size_t>(f.idx())];
+        };
+        std::vector<TriangleMesh::FaceHandle> front;
+        for (const auto seed : mesh.faces()) {
+            if (mesh.data(seed).part > 0) continue;
+            if (last == std::numeric_limits<int>::max())
+                throw Error(ErrorKind::unsupported, "there is no part id left for a new patch");
+            result.parts.push_back(++last);
+            mesh.data(seed).part = last;
+            front.push_back(seed);
+            while (!front.empty()) {
+                const TriangleMesh::FaceHandle f = front.back();
+                front.pop_back();
+                for (const auto next : mesh.ff_range(f)) {
+                    if (mesh.data(next).part > 0 || label(next) != label(seed)) continue;
+                    mesh.data(next).part = last;
+                    front.push_back(next);
+                }
+            }
+        }
+    }
+    result.mesh = std::move(mesh);
     return result;
 }
 

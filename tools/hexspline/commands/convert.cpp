@@ -2,10 +2,13 @@
 ///   hexspline convert -i part.stl -o part.k
 ///   hexspline convert -i part_hex.vtk -o part_hex.vtu
 ///   hexspline convert -i part.stl --labels labels.txt -o part_segment.k
+///   hexspline convert -i part.step -o part.k --features-out part_edges.obj
 
 #include "hexspline/command.h"
+#include "hexspline/surface_input.h"
 
 #include <hex/base/error.h>
+#include <hex/io/cad_file.h>
 #include <hex/io/list_file.h>
 #include <hex/io/mesh_file.h>
 
@@ -36,6 +39,14 @@ void describe(CommandLine& line) {
     line.add_output(
         "the same in the format of this file's extension; .txt: its labels (part id - 1), one a line");
     line.add("labels", value<std::string>("FILE"), "one label a polygon, as text: becomes the part id - 1");
+    describe_repair(line);
+    describe_cad_input(line);
+}
+
+hex::io::MeshFile read_input(const CommandLine& line) {
+    if (hex::io::is_cad_file(line.input())) return read_surface_input(line, line.input());
+    require_cad_for_its_options(line, line.input());
+    return hex::io::read_mesh_file(line.input());
 }
 
 /// Says what the new format drops.
@@ -89,7 +100,7 @@ std::vector<int> parts_of(const hex::HexMesh& mesh) {
 }
 
 int run(CommandLine& line) {
-    hex::io::MeshFile file = hex::io::read_mesh_file(line.input());
+    hex::io::MeshFile file = read_input(line);
     line.context().check_cancelled();
     const bool labels_out = names_label_file(line.output());
     if (line.given("labels")) {
@@ -98,6 +109,11 @@ int run(CommandLine& line) {
             throw hex::Error(hex::ErrorKind::usage, "--labels is for surfaces; the input holds hexahedra");
         set_labels(*surface, line.get<std::string>("labels"));
     }
+    Json repair = nullptr;
+    if (auto* surface = std::get_if<hex::io::SurfaceFile>(&file))
+        repair = repair_input(line, line.input(), surface->soup);
+    else if (line.is_set("repair"))
+        throw hex::Error(hex::ErrorKind::usage, "--repair is for surfaces; the input holds hexahedra");
     Json report;
     if (labels_out) {
         const auto* surface = std::get_if<hex::io::SurfaceFile>(&file);
@@ -112,6 +128,8 @@ int run(CommandLine& line) {
         report = {{"content", "surface"},
                   {"points", surface->soup.points.size()},
                   {"polygons", surface->soup.size()},
+                  {"sharp_edges", surface->sharp_edges.size()},
+                  {"repair", repair},
                   {"findings", to_json(surface->diagnostics)}};
         line.info(std::to_string(surface->soup.points.size()) + " points, " +
                   std::to_string(surface->soup.size()) + " polygons");
@@ -139,7 +157,8 @@ const RegisterCommand registered(
      .description = list_of_formats(),
      .sample_runs = {"hexspline convert -i part.stl -o part.k",
                      "hexspline convert -i part_hex.vtk -o part_hex.vtu",
-                     "hexspline convert -i part.stl --labels labels.txt -o part_segment.k"},
+                     "hexspline convert -i part.stl --labels labels.txt -o part_segment.k",
+                     "hexspline convert -i part.step -o part.k --features-out part_edges.obj"},
      .describe = describe,
      .run = run});
 

@@ -5,6 +5,7 @@
 
 #include "hexspline/chain.h"
 #include "hexspline/element_size.h"
+#include "hexspline/surface_input.h"
 
 namespace cli {
 namespace {
@@ -22,6 +23,8 @@ void describe(CommandLine& line) {
         "route", value<std::string>("NAME")->default_value("auto"),
         "how blocks are made when none are given: labelling, voxel, or auto: voxel where labelling gives no "
         "valid mesh");
+    describe_repair(line);
+    describe_cad_input(line);
     describe_element_size(line);
     line.add("weight,l", value<double>()->default_value(0.1, "0.1"),
              "segment: weight of the boundary-enhanced term; with it the method is hbecvt");

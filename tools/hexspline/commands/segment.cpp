@@ -4,7 +4,7 @@
 ///   hexspline segment -i part_patches.k -o part_checked.k --from-patches --require
 
 #include "hexspline/command.h"
-#include "hexspline/inputs.h"
+#include "hexspline/surface_input.h"
 
 #include <hex/base/error.h>
 #include <hex/io/list_file.h>
@@ -30,7 +30,11 @@ void describe(CommandLine& line) {
              "auto: other labels, to try when no polycube can be built from the first");
     line.add_switch("align", "auto: turn the part to its best axes; -o holds it turned, the report says how");
     line.add("labels", value<std::string>(), "write one label 0..5 = +X -X +Y -Y +Z -Z per triangle as text");
-    line.add_switch("from-patches", "the part ids of -i are patches made by hand: keep and check them");
+    line.add_switch(
+        "from-patches",
+        "the part ids of -i are patches made by hand: check them, and make those for triangles of part 0");
+    describe_repair(line);
+    describe_cad_input(line);
     line.add_switch("require", "exit with 1 when a condition on a polycube segmentation is violated");
 }
 
@@ -134,11 +138,24 @@ void tell_summary(const CommandLine& line, const hex::SegmentReport& report) {
               " boundaries, " + std::to_string(report.corners) + " corners");
 }
 
+/// Patches for the triangles that the user left without one.
+hex::CompletedPatches complete(const CommandLine& line, const hex::TriangleMesh& mesh) {
+    hex::CompletedPatches completed = hex::complete_patches(mesh, {}, line.context());
+    if (completed.triangles > 0)
+        line.warn(line.input().string() + ": " + std::to_string(completed.triangles) +
+                  " triangles without a patch became " + std::to_string(completed.parts.size()) +
+                  " patches, from part id " + std::to_string(completed.parts.front()) + " on");
+    return completed;
+}
+
 int run(CommandLine& line) {
     const bool from_patches = line.is_set("from-patches");
     if (from_patches) require_no_labelling_options(line);
     const hex::SegmentOptions options = options_of(line);
-    const hex::TriangleMesh mesh = load_triangles(line, line.input());
+    const SurfaceInput input = load_surface_input(line, line.input());
+    const hex::CompletedPatches completed =
+        from_patches ? complete(line, input.mesh) : hex::CompletedPatches{input.mesh, 0, {}};
+    const hex::TriangleMesh& mesh = completed.mesh;
     const hex::SegmentResult result =
         from_patches ? hex::segment_from_patches(mesh) : hex::segment(mesh, options, line.context());
 
@@ -151,7 +168,10 @@ int run(CommandLine& line) {
         hex::io::write_labels(line.get<std::string>("labels"), result.segmentation.labels);
     tell_summary(line, result.report);
     tell_violations(line, result.report.violations);
-    line.write_report(report_of(result, options));
+    Json report = report_of(result, options);
+    report["repair"] = input.repair;
+    if (from_patches) report["completed"] = {{"triangles", completed.triangles}, {"parts", completed.parts}};
+    line.write_report(report);
 
     const auto violated = hex::count_at_least(result.report.violations, hex::Severity::warning);
     if (line.is_set("require") && violated > 0)

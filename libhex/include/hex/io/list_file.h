@@ -40,4 +40,8 @@ void write_corner_list(const std::filesystem::path& path, std::span<const int> v
 void write_edge_list(const std::filesystem::path& path, std::span<const std::array<int, 2>> edges);
 void write_face_list(const std::filesystem::path& path, std::span<const std::array<int, 4>> faces);
 
+/// Edges between points as an .obj file: the points they use as `v x y z`, each edge as `l a b`.
+void write_feature_lines(const std::filesystem::path& path, std::span<const Vec3> points,
+                         std::span<const std::array<std::uint32_t, 2>> edges);
+
 }  // namespace hex::io

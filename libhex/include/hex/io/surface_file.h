@@ -6,7 +6,10 @@
 #include <hex/io/part_names.h>
 #include <hex/surface/polygon_soup.h>
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
+#include <vector>
 
 namespace hex::io {
 
@@ -15,12 +18,15 @@ struct SurfaceFile {
     PolygonSoup soup;
     PartNames part_names;
     Diagnostics diagnostics;
+    /// Sharp edges that the file itself knows of, as pairs of points: those of CAD models (cad_file.h).
+    std::vector<std::array<std::uint32_t, 2>> sharp_edges = {};
 };
 
-/// Reads .k .key .vtk .vtu .mesh .mfem .inp .msh .ovm .stl .obj .off .ply (any case). A file of hexahedra
-/// gives Error{bad_input} that says so. Points that no polygon uses are kept; whether the polygons make a
-/// surface is not asked here (make_poly_mesh does). Throws Error{bad_input} with `file:line` (or byte offset
-/// for binary formats), Error{unsupported} for an unknown extension.
+/// Reads .k .key .vtk .vtu .mesh .mfem .inp .msh .ovm .stl .obj .off .ply, and .step .stp .iges .igs .brep by
+/// read_cad with its default options (any case). A file of hexahedra gives Error{bad_input} that says so.
+/// Points that no polygon uses are kept; whether the polygons make a surface is not asked here
+/// (make_poly_mesh does). Throws Error{bad_input} with `file:line` (or byte offset for binary formats),
+/// Error{unsupported} for an unknown extension.
 SurfaceFile read_surface(const std::filesystem::path& path);
 
 /// Writes the format of the extension; throws Error{unsupported} for one that cannot carry a surface,

@@ -125,6 +125,19 @@ SegmentResult segment(const TriangleMesh& mesh, const SegmentOptions& options = 
 /// `charts` counts patches, and `corners` are vertices where at least three patches meet.
 SegmentResult segment_from_patches(const TriangleMesh& mesh);
 
+/// What complete_patches adds.
+struct CompletedPatches {
+    TriangleMesh mesh;
+    std::size_t triangles = 0;  ///< that had no patch
+    std::vector<int> parts;     ///< the new patches, ascending
+};
+
+/// Gives a patch to the triangles that have none, those with a part id of 0 or less; the others keep theirs.
+/// The surface is labelled as a whole (`options`), and every connected region of such triangles with equal
+/// label becomes a patch with a part id above all that are there. Throws as segment does.
+CompletedPatches complete_patches(TriangleMesh mesh, const SegmentOptions& options = {},
+                                  const Context& context = {});
+
 /// The mesh with `part = label + 1` on each face: what `segment` writes.
 TriangleMesh with_labels(TriangleMesh mesh, const Segmentation& segmentation);
 
