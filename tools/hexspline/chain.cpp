@@ -41,6 +41,8 @@ constexpr double last_target = 8000;
 /// What follows means: no farther apart than this, in percent of the diagonal, as mapped and after
 /// improvement.
 constexpr double wished_distance = 1.6;
+/// Blocks that even the finest mesh does not bring nearer than this are given up.
+constexpr double hopeless_distance = 5.0;
 /// How often a mesh is made anew because the improved one is inverted or too far from the surface.
 constexpr int most_meshes = 3;
 /// SegmentOptions::attempt goes up to this.
@@ -333,7 +335,11 @@ void Chain::map_as_fine_as_needed(double target) {
         const double apart = percent_apart(result.mesh);
         line_.info(std::to_string(result.mesh.cell_count()) + " hexahedra are within " +
                    std::to_string(apart) + " % of the diagonal of the surface");
-        if (apart <= wished_distance || target * target_growth > last_target) {
+        const bool finest = target * target_growth > last_target;
+        if (finest && apart > hopeless_distance)
+            throw RouteClosed{"the mapped mesh stays " + std::to_string(apart) +
+                              " % of the diagonal off the surface"};
+        if (apart <= wished_distance || finest) {
             line_.log(result.report.diagnostics);
             mapped_ = std::move(result.mesh);
             mapped_target_ = target;
