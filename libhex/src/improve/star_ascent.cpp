@@ -2,7 +2,6 @@
 
 #include "improve/coloring.h"
 
-#include <hex/base/parallel.h>
 #include <hex/improve/corner_energies.h>
 #include <hex/quality/scaled_jacobian.h>
 
@@ -137,11 +136,9 @@ int raise_star_minima(SlidingMesh& mesh, const AscentOptions& options, const Con
             if (values[c.index()] < bad)
                 for (const VertexId v : mesh.mesh().cell(c)) active[v.index()] = 1;
         std::size_t moved = 0;
+        // One after the other: the shape keeper looks at vertices beyond the star, which are not independent.
         for (const auto& members : independent_classes(mesh.mesh(), active))
-            moved += parallel_reduce(
-                members.size(), std::size_t{0},
-                [&](std::size_t count, std::size_t i) { return count + ascent.raise(members[i]); },
-                [](std::size_t a, std::size_t b) { return a + b; }, 8);
+            for (const VertexId v : members) moved += ascent.raise(v);
         if (moved == 0) break;
     }
     return sweeps;
