@@ -1,11 +1,9 @@
+#include "map/blend.h"
+
 #include <hex/map/linear_blend.h>
 
 namespace hex {
 namespace {
-
-Vec3 blend(double t, const Vec3& at_0, const Vec3& at_1) {
-    return (1.0 - t) * at_0 + t * at_1;
-}
 
 double weight(double t) {
     return 1.0 / (t * (1.0 - t));

@@ -1,17 +1,8 @@
+#include "map/blend.h"
+
 #include <hex/map/transfinite.h>
 
 namespace hex {
-namespace {
-
-Vec3 blend(double t, const Vec3& at_0, const Vec3& at_1) {
-    return (1.0 - t) * at_0 + t * at_1;
-}
-
-Vec3 blend(double s, double t, const Vec3& at_00, const Vec3& at_10, const Vec3& at_01, const Vec3& at_11) {
-    return blend(t, blend(s, at_00, at_10), blend(s, at_01, at_11));
-}
-
-}  // namespace
 
 void fill_inside(FaceGrid& face) {
     const int m = face.nu();
