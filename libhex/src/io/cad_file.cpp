@@ -6,6 +6,7 @@
 
 #include <hex/base/error.h>
 #include <hex/io/cad_file.h>
+#include <hex/io/mesh_file.h>
 
 #include <cmath>
 #include <optional>
@@ -14,7 +15,7 @@ namespace hex::io {
 namespace {
 
 std::optional<CadFormat> format_named(const std::filesystem::path& path) {
-    const std::string extension = lower_case(path.extension().string());
+    const std::string extension = extension_of(path);
     if (extension == ".step" || extension == ".stp") return CadFormat::step;
     if (extension == ".iges" || extension == ".igs") return CadFormat::iges;
     if (extension == ".brep") return CadFormat::brep;

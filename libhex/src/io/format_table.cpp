@@ -108,7 +108,7 @@ const std::vector<Format>& table() {
 }
 
 const Format* lookup(const std::filesystem::path& path) {
-    const std::string extension = lower_case(path.extension().string());
+    const std::string extension = extension_of(path);
     for (const Format& format : table()) {
         const auto& known = format.info.extensions;
         if (std::find(known.begin(), known.end(), extension) != known.end()) return &format;
@@ -227,6 +227,10 @@ const std::vector<FormatInfo>& formats() {
         return list;
     }();
     return infos;
+}
+
+std::string extension_of(const std::filesystem::path& path) {
+    return lower_case(path.extension().string());
 }
 
 const FormatInfo* find_format(const std::filesystem::path& path) {

@@ -10,6 +10,7 @@
 
 #include <hex/base/error.h>
 #include <hex/io/hex_file.h>
+#include <hex/io/mesh_file.h>
 #include <hex/io/output_file.h>
 #include <spline/io/bext.h>
 #include <spline/jacobian.h>
@@ -120,8 +121,7 @@ Findings examine(const CommandLine& line, const hex::HexMesh& mesh, const Demand
 }
 
 bool is_bext(const std::filesystem::path& path) {
-    std::string extension = path.extension().string();
-    for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    const std::string extension = hex::io::extension_of(path);
     return extension == ".bext" || extension == ".bxt";
 }
 

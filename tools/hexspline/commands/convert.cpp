@@ -88,9 +88,7 @@ void write_label_file(const std::filesystem::path& path, std::span<const int> pa
 }
 
 bool names_label_file(const std::filesystem::path& path) {
-    std::string extension = path.extension().string();
-    for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-    return extension == ".txt";
+    return hex::io::extension_of(path) == ".txt";
 }
 
 std::vector<int> parts_of(const hex::HexMesh& mesh) {

@@ -8,6 +8,7 @@
 
 #include <hex/base/error.h>
 #include <hex/io/list_file.h>
+#include <hex/io/mesh_file.h>
 #include <spline/fit.h>
 #include <spline/io/bext.h>
 #include <spline/io/bext2.h>
@@ -21,7 +22,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 
 namespace cli {
 namespace {
@@ -30,12 +30,6 @@ namespace {
 constexpr int all_levels = -1;
 
 enum class Format { bext, bext2, vtu, json };
-
-std::string lower_case(std::string text) {
-    std::transform(text.begin(), text.end(), text.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
-}
 
 /// --format, else the extension of the output; what is no extension of ours means BEXT.
 Format output_format(const CommandLine& line) {
@@ -49,7 +43,7 @@ Format output_format(const CommandLine& line) {
                          "known: bext, bext2, vtu, json");
     }
     if (!line.given("output")) return Format::bext;
-    const std::string extension = lower_case(line.output().extension().string());
+    const std::string extension = hex::io::extension_of(line.output());
     if (extension == ".vtu") return Format::vtu;
     if (extension == ".json") return Format::json;
     if (extension == ".bxt" || extension == ".bext2") return Format::bext2;

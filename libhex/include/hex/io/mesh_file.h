@@ -38,6 +38,9 @@ struct FormatInfo {
 /// All formats, in the order of docs/formats.md.
 const std::vector<FormatInfo>& formats();
 
+/// The extension that names a format: in lower case, with its dot; "" without one.
+std::string extension_of(const std::filesystem::path& path);
+
 /// The format that the extension of `path` names, or nullptr.
 const FormatInfo* find_format(const std::filesystem::path& path);
 
