@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""The example plug-in is found, loaded and used; what is no plug-in is refused.
+"""The plug-ins are found, loaded and used; what is no plug-in is refused, and one that fails says so in one line.
 
-    plugin_test.py HEXSPLINE PLUGIN DATA_FOLDER
+    plugin_test.py HEXSPLINE FAULTY_PLUGIN PLUGIN_FOLDER DATA_FOLDER
 """
 import json
 import os
@@ -13,8 +13,11 @@ import unittest
 from pathlib import Path
 
 DATA = Path(sys.argv.pop())
-PLUGIN = sys.argv.pop()
+FOLDER = Path(sys.argv.pop())
+FAULTY = sys.argv.pop()
 PROGRAM = sys.argv.pop()
+PLUGIN = str(FOLDER / 'axis_segmenter.so')
+GRAPH_CUT, CENTRE, NASTRAN = (FOLDER / f'{name}.so' for name in ('graph_cut_segmenter', 'centre_improver', 'nastran_reader'))
 
 
 def run(*arguments, **environment):
@@ -103,6 +106,131 @@ class Plugin(unittest.TestCase):
         done = run('plugins', '--plugin', PLUGIN, '--plugin', copy)
         self.assertNotEqual(done.returncode, 0)
         self.assertIn("already has a method 'axis'", done.stderr)
+
+    # --- the plug-ins that come along ---
+
+    def segment(self, name, method, *options):
+        labels = self.folder / f'{name}.txt'
+        done = run('segment', '-i', DATA / 'bracket/bracket.stl', '-o', self.folder / f'{name}.k', '--labels', labels, '--method',
+                   method, '--plugin', GRAPH_CUT, '--json', self.folder / f'{name}.json', *options)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return labels.read_text().split(), json.loads((self.folder / f'{name}.json').read_text())
+
+    def test_the_graph_cut_makes_fewer_charts_the_heavier_boundaries_are(self):
+        _, loose = self.segment('loose', 'graph-cut', '-l', 0)
+        labels, tight = self.segment('tight', 'graph-cut', '-l', 0.5)
+        again, _ = self.segment('again', 'graph-cut', '-l', 0.5, '--threads', 1)
+        self.assertEqual(labels, again)
+        self.assertGreaterEqual(tight['charts'], 6)
+        self.assertLessEqual(tight['charts'], loose['charts'])
+
+    def test_the_improver_straightens_a_grid_and_keeps_its_boundary(self):
+        import meshio
+        import numpy
+        numpy.random.seed(3)
+        n = 5
+        points = numpy.array([(x, y, z) for z in range(n) for y in range(n) for x in range(n)], float)
+        inside = ((points > 0) & (points < n - 1)).all(axis=1)
+        points[inside] += 0.5 * numpy.random.random((inside.sum(), 3)) - 0.25
+        first = [x + n * y + n * n * z for z in range(n - 1) for y in range(n - 1) for x in range(n - 1)]
+        cells = [[v, v + 1, v + n + 1, v + n] + [u + n * n for u in (v, v + 1, v + n + 1, v + n)] for v in first]
+        rough, better = self.folder / 'rough.vtk', self.folder / 'better.vtk'
+        meshio.Mesh(points, [('hexahedron', cells)]).write(rough, file_format='vtk42', binary=False)
+        done = run('improve', '-i', rough, '-o', better, '-m', 'centre', '--plugin', CENTRE, '--json', self.folder / 'report.json')
+        self.assertEqual(done.returncode, 0, done.stderr)
+        report = json.loads((self.folder / 'report.json').read_text())
+        self.assertGreater(report['after']['min_scaled_jacobian'], report['before']['min_scaled_jacobian'] + 0.1)
+        self.assertGreater(report['after']['mean_scaled_jacobian'], report['before']['mean_scaled_jacobian'] + 0.05)
+        numpy.testing.assert_array_equal(meshio.read(better).points[~inside], points[~inside])
+
+    def convert(self, file, out, expected=0):
+        done = run('convert', '-i', file, '-o', out, '--plugin', NASTRAN)
+        self.assertEqual(done.returncode, expected, done.stderr)
+        return done.stderr
+
+    def test_nastran_files_of_meshio_are_read(self):
+        import meshio
+        import numpy
+        numpy.random.seed(5)
+        points = numpy.random.randint(1, 99, (30, 3)) * [1e-4, 1, 1e5] - [0, 50.5, 0]
+        corners = [numpy.random.permutation(30)[:3] for _ in range(12)]
+        cube = numpy.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [0, 0, 1], [1, 0, 1], [1, 1, 1], [0, 1, 1]]) / 4
+        for points, cells in ((points, ('triangle', corners)), (cube, ('hexahedron', [range(8)]))):
+            for layout in ('fixed-small', 'fixed-large'):
+                with self.subTest(layout=layout, kind=cells[0]):
+                    file, out = self.folder / 'mesh.bdf', self.folder / 'mesh.vtk'
+                    meshio.Mesh(points, [cells]).write(file, file_format='nastran', point_format=layout,
+                                                       cell_format=layout)
+                    self.convert(file, out)
+                    mesh = meshio.read(out)
+                    numpy.testing.assert_allclose(mesh.points, points, rtol=1e-3 if layout == 'fixed-small' else 1e-12)
+                    numpy.testing.assert_array_equal(mesh.cells_dict[cells[0]], cells[1])
+
+    def test_nastran_parts_and_odd_numbers(self):
+        file = self.folder / 'PART.BDF'
+        file.write_text('SOL 101\nCEND\nTITLE = CTRIA3,9\nBEGIN BULK\n$ comment\r\nGRID,7,,1.5-3,1.D+1,-2.\n'
+                        'grid*                  8                             0.0             0.0\n*       1.+0\n'
+                        'GRID           9              0.      1.      0.\nCBAR,5,1,7,8\nCTRIA3,1,4,7,8,9\nENDDATA\nCTRIA3,2,4,7,8,77\n')
+        message = self.convert(file, self.folder / 'part.obj')
+        self.assertIn('1 elements of type CBAR are skipped', message)
+        text = (self.folder / 'part.obj').read_text()
+        self.assertIn('v 0.0015 10 -2\nv 0 0 1\nv 0 1 0\n', text)
+        self.assertIn('part_4', text)
+
+    def test_broken_nastran_files_are_refused_with_their_line(self):
+        points = ''.join(f'GRID,{i},,{i}.,0.,1.\n' for i in range(1, 9))
+        for text, line, words in (('hello\n', 1, 'no GRID'), (points + 'GRID,3,,0.,0.,0.\n', 9, 'a second time'),
+                                  (points + 'CTRIA3,1,1,1,2,99\n', 9, 'point 99'), ('GRID,1,,x,0.,0.\n', 1, "not 'x'"),
+                                  (points + 'CTRIA3,1,1,1,2\n', 9, 'positive integer'), ('GRID,1,5,0.,0.,0.\n', 1, 'system 5'),
+                                  (points + 'CTETRA,1,1,1,2,3,4\n', 9, 'CTETRA'), ('GRID,1,,nan,0.,0.\n', 1, 'finite'),
+                                  (points + 'CHEXA,1,1,1,2,3,4,5,6\n,7,8,1\n', 9, 'nodes on its edges')):
+            with self.subTest(text=text[-30:]):
+                file = self.folder / 'broken.nas'
+                file.write_text(text)
+                message = self.convert(file, self.folder / 'out.k', expected=3)
+                self.assertIn(f'broken.nas:{line}: ', message)
+                self.assertIn(words, message)
+                self.assertEqual(len(message.splitlines()), 1, message)
+
+    def test_formats_that_are_there_already_cannot_be_taken_and_others_are_named(self):
+        file = self.folder / 'mesh.xyz'
+        file.write_text('hello')
+        message = self.convert(file, self.folder / 'out.k', expected=3)
+        self.assertIn(".bdf .nas", message)
+        self.assertEqual(methods('--plugin', NASTRAN)['read', '.bdf'], str(NASTRAN))
+
+    # --- methods that fail ---
+
+    def test_whatever_a_method_throws_is_one_line_and_an_exit_code(self):
+        for how, code, words in (('error', 4, 'triangle 3: no luck; try again'), ('standard', 4, 'no luck'), ('number', 4, 'unknown kind'),
+                                 ('memory', 5, 'memory'), ('lines', 4, 'no luck and no manners'), ('thread', 4, 'no luck'),
+                                 ('factory', 4, 'no luck'), ('labels', 4, 'label 17'), ('few', 4, '0 labels')):
+            with self.subTest(how=how):
+                out = self.folder / 'out.k'
+                done = run('segment', '-i', DATA / 'rod/rod_tri.k', '-o', out, '--method', f'faulty-{how}', '--plugin', FAULTY)
+                self.assertEqual(done.returncode, code, done.stderr)
+                self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+                self.assertTrue(done.stderr.startswith('hexspline segment: error: '), done.stderr)
+                self.assertIn(words, done.stderr)
+                self.assertFalse(out.exists())
+
+    def test_an_improver_that_throws_is_one_line_and_an_exit_code(self):
+        done = run('improve', '-i', DATA / 'blob/blob_blocks.k', '-o', self.folder / 'out.vtk', '-m', 'faulty', '--plugin', FAULTY)
+        self.assertEqual(done.returncode, 4, done.stderr)
+        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+        self.assertEqual(list(self.folder.iterdir()), [])
+
+    def test_a_reader_that_throws_or_returns_nonsense_is_one_line_and_an_exit_code(self):
+        for first, code, words in (('e', 3, 'mesh.faulty:1: no luck'), ('s', 4, 'no luck'), ('i', 3, 'a point that is not there'),
+                                   ('n', 3, 'finite'), ('o', 3, 'do not fit'), ('p', 3, 'do not fit'),
+                                   ('h', 3, 'a point that is not there'), ('.', 3, 'holds no polygons')):
+            with self.subTest(first=first):
+                file = self.folder / 'mesh.faulty'
+                file.write_text(first)
+                done = run('convert', '-i', file, '-o', self.folder / 'out.k', '--plugin', FAULTY)
+                self.assertEqual(done.returncode, code, done.stderr)
+                self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+                self.assertIn(words, done.stderr)
 
     @staticmethod
     def surface(path):

@@ -1,4 +1,4 @@
-# cmake -DBUILD_DIR= -DCONSUMER_DIR= -DWORK_DIR= -DBUILD_TYPE= -P install_test.cmake
+# cmake -DBUILD_DIR= -DCONSUMER_DIR= -DPLUGIN_DIR= -DDATA_DIR= -DWORK_DIR= -DVERSION= -P install_test.cmake
 function(run)
     execute_process(COMMAND ${ARGV} RESULT_VARIABLE result)
     if(NOT result EQUAL 0)
@@ -21,11 +21,42 @@ if(SANITIZE)
     string(REPLACE ";" "," SANITIZE "${SANITIZE}")
     set(flags "-DCMAKE_CXX_FLAGS=-fsanitize=${SANITIZE}")
 endif()
-run(${CMAKE_COMMAND} -G Ninja -S "${CONSUMER_DIR}" -B "${WORK_DIR}/build" -DCMAKE_BUILD_TYPE=${BUILD_TYPE}
-    "-DCMAKE_PREFIX_PATH=${prefix}" ${flags})
-run(${CMAKE_COMMAND} --build "${WORK_DIR}/build")
+find_program(ccache ccache)
+if(ccache)
+    list(APPEND flags "-DCMAKE_CXX_COMPILER_LAUNCHER=${ccache}")
+endif()
+function(build_against_the_package source build)
+    # Not optimised: only whether it builds and works is asked here.
+    run(${CMAKE_COMMAND} -G Ninja -S "${source}" -B "${build}" "-DCMAKE_PREFIX_PATH=${prefix}" ${flags})
+    run(${CMAKE_COMMAND} --build "${build}")
+endfunction()
+build_against_the_package("${CONSUMER_DIR}" "${WORK_DIR}/build")
+# Each plug-in folder, copied away, builds against the package as well, and so does the one that the documentation prints.
+file(GLOB folders "${PLUGIN_DIR}/*/CMakeLists.txt")
+foreach(list_file ${folders})
+    get_filename_component(folder "${list_file}" DIRECTORY)
+    file(COPY "${folder}" DESTINATION "${WORK_DIR}/plugins")
+endforeach()
+include("${CMAKE_CURRENT_LIST_DIR}/documented_plugin.cmake")
+extract_documented_plugin("${PLUGIN_DIR}/../docs/extending.md" "${WORK_DIR}/plugins/my_segmenter")
+file(GLOB plugins RELATIVE "${WORK_DIR}/plugins" "${WORK_DIR}/plugins/*")
+foreach(plugin ${plugins})
+    build_against_the_package("${WORK_DIR}/plugins/${plugin}" "${WORK_DIR}/plugins/${plugin}/build")
+endforeach()
 # Moved to another place, the installed tree still works: nothing in it points back to the build.
 file(RENAME "${prefix}" "${WORK_DIR}/moved")
 expect("12 vertices, 2 hexahedra, 1 interior face\n"
        ${CMAKE_COMMAND} -E env "LD_LIBRARY_PATH=${WORK_DIR}/moved/lib" "${WORK_DIR}/build/consumer")
 expect("hexspline ${VERSION}\n" "${WORK_DIR}/moved/bin/hexspline" --version)
+
+foreach(plugin ${plugins})
+    set(library "${WORK_DIR}/plugins/${plugin}/build/${plugin}.so")
+    execute_process(COMMAND "${WORK_DIR}/moved/bin/hexspline" plugins --plugin "${library}" RESULT_VARIABLE result
+                    OUTPUT_VARIABLE methods)
+    string(FIND "${methods}" "${library}" place)
+    if(NOT result EQUAL 0 OR place EQUAL -1)
+        message(FATAL_ERROR "${plugin} is not listed (${result})\n${methods}")
+    endif()
+endforeach()
+run("${WORK_DIR}/moved/bin/hexspline" segment -i "${DATA_DIR}/rod/rod_tri.k" -o "${WORK_DIR}/rod_segment.k" --method mine
+    --plugin "${WORK_DIR}/plugins/my_segmenter/build/my_segmenter.so")

@@ -27,7 +27,10 @@ int run_command(const cli::Command& command, const std::vector<std::string>& arg
     return line.parse(arguments) ? command.run(line) : 0;
 }
 
-int report(const std::string& command, const std::string& message, int code) {
+/// One line, whatever the message holds: that of a plug-in may have several.
+int report(const std::string& command, std::string message, int code) {
+    for (char& c : message)
+        if (static_cast<unsigned char>(c) < 32) c = ' ';
     std::cerr << "hexspline" << (command.empty() ? "" : " " + command) << ": error: " << message << '\n';
     return code;
 }

@@ -1,4 +1,5 @@
 // The one table of formats, and the public readers and writers that look into it.
+#include "io/added_reader.h"
 #include "io/formats.h"
 
 #include <hex/base/error.h>
@@ -132,6 +133,7 @@ const Format& format_of(const std::filesystem::path& path, bool FormatInfo::*wan
 MeshData read_with(const Format& (*choose)(const std::filesystem::path&), const std::filesystem::path& path) {
     std::error_code ignored;
     if (!std::filesystem::is_regular_file(path, ignored)) InputFile{path};
+    if (has_added_reader(path)) return read_with_added_reader(path);
     const Format& format = choose(path);
     return format.read(InputFile(path));
 }
@@ -247,6 +249,7 @@ std::string extensions_of(bool FormatInfo::*flag) {
             list += extension;
         }
     }
+    if (flag == &FormatInfo::reads_surfaces || flag == &FormatInfo::reads_hexahedra) list += added_extensions();
     return list;
 }
 

@@ -6,7 +6,7 @@
 #pragma once
 
 #include "io/input_file.h"
-#include "io/mesh_data.h"
+#include <hex/io/mesh_data.h>
 
 #include <hex/io/hex_file.h>
 #include <hex/io/output_file.h>

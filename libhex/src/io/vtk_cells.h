@@ -2,7 +2,7 @@
 /// Cells by VTK's type numbers, shared by the legacy and the XML format.
 #pragma once
 
-#include "io/mesh_data.h"
+#include <hex/io/mesh_data.h>
 
 #include <optional>
 #include <span>

@@ -79,7 +79,13 @@ SegmentResult segment(const TriangleMesh& mesh, const SegmentOptions& options, c
     return with_threads(context, [&] {
         SegmentResult result = method->segment(mesh, options, context);
         result.report.method = options.method;
-        require_labels(result.segmentation, mesh.n_faces());
+        try {
+            require_labels(result.segmentation, mesh.n_faces());
+        } catch (const Error& error) {
+            throw Error(ErrorKind::no_result,
+                        "method '" + options.method + "' gives no labelling: " + error.problem(),
+                        error.where());
+        }
         apply_manual(options, result);
         for (const int label : result.segmentation.labels)
             ++result.report.label_counts[static_cast<std::size_t>(label)];

@@ -5,6 +5,7 @@
 #include "hexspline/command.h"
 
 #include <hex/improve/improve.h>
+#include <hex/io/reader.h>
 #include <hex/map/map.h>
 #include <hex/polycube/polycube.h>
 #include <hex/segment/segment.h>
@@ -25,6 +26,7 @@ std::vector<hex::MethodInfo> all_methods() {
     add(hex::mappers().list());
     add(hex::improvers().list());
     add(spline::spline_builders().list());
+    add(hex::io::readers().list());
     return methods;
 }
 

@@ -35,7 +35,7 @@ struct FormatInfo {
     std::string_view written_as;
 };
 
-/// All formats, in the order of docs/formats.md.
+/// All formats that are built in, in the order of docs/formats.md.
 const std::vector<FormatInfo>& formats();
 
 /// The extension that names a format: in lower case, with its dot; "" without one.
@@ -45,7 +45,8 @@ std::string extension_of(const std::filesystem::path& path);
 const FormatInfo* find_format(const std::filesystem::path& path);
 
 /// Extensions of the formats for which `flag` is set, separated by blanks, for messages and help:
-/// `extensions_of(&FormatInfo::writes_hexahedra)` is ".k .key .vtk .vtu .mesh ...".
+/// `extensions_of(&FormatInfo::writes_hexahedra)` is ".k .key .vtk .vtu .mesh ...". What is read includes the
+/// extensions of added readers (reader.h).
 std::string extensions_of(bool FormatInfo::*flag);
 
 /// A surface or a hexahedral mesh.

@@ -1,5 +1,5 @@
 /// \file mesh_data.h
-/// What one file holds, before anybody asks for a surface or a volume.
+/// What one file holds, before anybody asks for a surface or a volume: what readers return.
 #pragma once
 
 #include <hex/base/diagnostics.h>
