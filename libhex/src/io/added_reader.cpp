@@ -16,10 +16,6 @@ Registry<Reader>& registry() {
     return readers;
 }
 
-std::string extension_of(const std::filesystem::path& path) {
-    return lower_case(path.extension().string());
-}
-
 /// What foreign code returns must not break anything behind it.
 void require_mesh(const MeshData& data, const std::filesystem::path& path) {
     const auto refuse = [&](const std::string& what) {
