@@ -13,4 +13,12 @@ namespace hex::improving {
 /// lists its vertices in ascending order. Linear in the number of cells.
 std::vector<std::vector<VertexId>> independent_classes(const HexMesh& mesh, const std::vector<char>& wanted);
 
+/// The same, and nobody is in a class with a vertex of its row of `reads`: those whose places, besides those
+/// of its own cells, matter for it.
+/// \param cells the cells around each vertex
+std::vector<std::vector<VertexId>> independent_classes(const HexMesh& mesh,
+                                                       const CompressedRows<CellId>& cells,
+                                                       const std::vector<char>& wanted,
+                                                       const CompressedRows<VertexId>& reads);
+
 }  // namespace hex::improving

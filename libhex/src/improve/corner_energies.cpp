@@ -141,6 +141,28 @@ double FoldoverEnergy::smallest_determinant(const HexCorners& corners, const Vec
     return smallest;
 }
 
+double ShortEdgeEnergy::evaluate(const HexCorners& corners, const Vec3& reference,
+                                 HexCorners* gradient) const {
+    double sum = 0.0;
+    for (const auto& ends : hexahedron::edge_corners) {
+        const auto a = static_cast<std::size_t>(ends[0]);
+        const auto b = static_cast<std::size_t>(ends[1]);
+        const Vec3 edge = corners[b] - corners[a];
+        const double wanted =
+            share * reference[static_cast<Eigen::Index>(axis_between(ends[0], ends[1]))];
+        const double square = edge.squaredNorm();
+        if (square >= wanted * wanted) continue;
+        if (!(square > 0.0)) return infinity;
+        const double logarithm = 0.5 * std::log(wanted * wanted / square);
+        sum += weight * logarithm * logarithm;
+        if (gradient == nullptr) continue;
+        const Vec3 slope = 2.0 * weight * logarithm / square * edge;
+        (*gradient)[a] += slope;
+        (*gradient)[b] -= slope;
+    }
+    return sum;
+}
+
 double QualityBarrier::evaluate(const HexCorners& corners, HexCorners* gradient) const {
     const ScaledDeterminants numbers(corners);
     if (!numbers.valid || !(numbers.smallest() > floor)) return infinity;

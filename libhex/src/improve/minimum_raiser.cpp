@@ -62,8 +62,10 @@ constexpr double negligible = 1e-4;
 constexpr double worth_a_round = 0.005;
 /// Meshes that are remembered until one is chosen.
 constexpr std::size_t most_candidates = 12;
-/// What raising the mean may cost the minimum.
+/// How far below the minimum the floor lies while the mean is raised, and what that may cost a minimum that is
+/// good enough; a bad one may lose almost nothing.
 constexpr double minimum_for_mean = 0.04;
+constexpr double bad_minimum_for_mean = 0.005;
 
 CurveOptions curve_options(const ImproveOptions& options) {
     CurveOptions curves;
@@ -126,7 +128,9 @@ MinimumRaiser::MinimumRaiser(const HexMesh& mesh, GuideSurface surface, const Im
       sliding_(mesh, edges_, &guide_, boundary_),
       meter_(edges_, boundary_, guide_.surface(), curve_options(options).sharp_cosine),
       best_(mesh),
-      input_(record_of(scaled_jacobians(mesh, context))) {}
+      input_(record_of(scaled_jacobians(mesh, context))) {
+    sliding_.set_boxes(reference_boxes(mesh, edges_));
+}
 
 std::size_t MinimumRaiser::sharp_edge_count() const {
     return static_cast<std::size_t>(
@@ -215,7 +219,9 @@ void MinimumRaiser::begin() {
 void MinimumRaiser::finish() {
     last_record_ = deadline_.elapsed();
     const bool exact_surface = options_.surface != nullptr;
-    const double most_slack = std::min(most_deviation_, 0.01 * largest_slack * guide_.diagonal());
+    // A little less, so that rounding does not make it too much.
+    const double most_slack =
+        (1.0 - 1e-9) * std::min(most_deviation_, 0.01 * largest_slack * guide_.diagonal());
     const auto solved = [&] { return !candidates_.empty() && candidates_.front().record.inverted == 0; };
     if (exact_surface || !solved()) {
         exact_ = true;
@@ -251,13 +257,16 @@ void MinimumRaiser::raise_mean() {
     descent.satisfied = [&] { return deadline_.passed(); };
     (void)descend(
         sliding_,
-        [&](std::size_t, const HexCorners& corners, HexCorners* gradient) {
-            return mean.evaluate(corners, gradient);
+        [&](std::size_t c, const HexCorners& corners, HexCorners* gradient) {
+            return mean.evaluate(corners, gradient) +
+                   ShortEdgeEnergy().evaluate(corners, sliding_.boxes()[c], gradient);
         },
         descent, context_);
     record("mean", false);
-    const double least =
-        std::max(start.record.min - minimum_for_mean, input_.inverted == 0 ? input_.min : 0.0);
+    const double cost =
+        start.record.min - minimum_for_mean >= good_enough ? minimum_for_mean : bad_minimum_for_mean;
+    if (now_.min < start.record.min - cost) ascend();
+    const double least = std::max(start.record.min - cost, input_.inverted == 0 ? input_.min : 0.0);
     if (now_.min <= least || now_.mean <= start.record.mean || deviation() > allowed_deviation()) return;
     if (candidates_.size() == most_candidates) candidates_.pop_back();
     candidates_.insert(candidates_.begin(),
@@ -309,7 +318,7 @@ void MinimumRaiser::restore_fidelity() {
 }
 
 void MinimumRaiser::untangle() {
-    const std::vector<Vec3> boxes = reference_boxes(sliding_.mesh(), edges_);
+    const std::vector<Vec3>& boxes = sliding_.boxes();
     FoldoverEnergy energy;
     double det = smallest_determinant(sliding_.mesh(), boxes);
     energy.epsilon = det > 0.0 ? 1e-3 : std::sqrt(1e-6 + 0.04 * det * det);
@@ -374,8 +383,9 @@ void MinimumRaiser::lower_barrier(double gap) {
         descent.satisfied = [&] { return deadline_.passed(); };
         (void)descend(
             sliding_,
-            [&](std::size_t, const HexCorners& corners, HexCorners* gradient) {
-                return barrier.evaluate(corners, gradient);
+            [&](std::size_t c, const HexCorners& corners, HexCorners* gradient) {
+                return barrier.evaluate(corners, gradient) +
+                       ShortEdgeEnergy().evaluate(corners, sliding_.boxes()[c], gradient);
             },
             descent, context_);
         record("barrier", exact_);

@@ -37,6 +37,19 @@ class ShapeKeeper {
     double evaluate(std::span<const Vec3> positions, std::vector<Vec3>* gradient) const;
     /// The part of the value that depends on boundary vertex v, when it is at p. Thread-safe.
     double around(VertexId v, const Vec3& p, std::span<const Vec3> positions) const;
+    /// Calls `visit` for every vertex whose position `around(v, ...)` reads; some more than once.
+    template <class Visit>
+    void visit_reach(VertexId v, const Visit& visit) const {
+        for (const std::uint32_t i : points_at_[v.index()]) {
+            if (points_[i].sharp) {
+                for (const std::uint32_t e : near_edges_[points_[i].home])
+                    for (const VertexId w : edges_.vertices[e]) visit(w);
+            } else {
+                for (const std::uint32_t q : near_quads_[points_[i].home])
+                    for (const VertexId w : boundary_.vertices[q]) visit(w);
+            }
+        }
+    }
 
   private:
     struct Point {

@@ -15,6 +15,15 @@ constexpr std::size_t memory = 10;   // pairs that L-BFGS remembers
 constexpr double sufficient = 1e-4;  // Armijo's constant
 constexpr int most_halvings = 30;
 
+/// No vector longer than `share` of the size of its vertex.
+void shorten(std::vector<Vec3>& vectors, const std::vector<double>& sizes, double share) {
+    parallel_for(vectors.size(), [&](std::size_t i) {
+        const double most = share * sizes[i];
+        const double length = vectors[i].norm();
+        if (length > most) vectors[i] *= most / length;
+    });
+}
+
 double dot(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
     return parallel_reduce(
         a.size(), 0.0, [&](double sum, std::size_t i) { return sum + a[i].dot(b[i]); },
@@ -233,6 +242,9 @@ DescentResult descend(SlidingMesh& mesh, const SlidingMesh::CellEnergy& energy, 
             add(direction, -alpha[k] - beta, pairs[k].move);
         }
         mesh.make_tangential(direction, 1.0);
+        // One vertex with a huge gradient, at a very short edge, must not hold up all the others. Shortened
+        // for each vertex alone, the direction of steepest descent still leads down.
+        if (pairs.empty()) shorten(direction, sizes, options.largest_move);
         double slope = dot(gradient, direction);
         if (!(slope < 0.0)) {
             if (pairs.empty()) break;

@@ -38,6 +38,11 @@ class SlidingMesh {
     void set_keeper(ShapeKeeper* keeper) { keeper_ = keeper; }
     ShapeKeeper* keeper() const { return keeper_; }
 
+    /// Lengths that the edges of each cell should about have along u, v and w; none at first. No vertex
+    /// of the star ascent makes an edge much shorter than that.
+    void set_boxes(std::vector<Vec3> boxes) { boxes_ = std::move(boxes); }
+    const std::vector<Vec3>& boxes() const { return boxes_; }
+
     /// Brings every boundary vertex to its nearest place on its part of the surface.
     void attach();
     /// Value of the energy `cell_energy(cell, corners, gradient or null)` summed over the cells, at positions
@@ -71,6 +76,7 @@ class SlidingMesh {
     BoundaryGuide::Place on_part(VertexId v, const Vec3& p) const;
 
     ShapeKeeper* keeper_ = nullptr;
+    std::vector<Vec3> boxes_;
     double slack_ = 0.0;
     bool smooth_ = false;
     HexMesh mesh_;

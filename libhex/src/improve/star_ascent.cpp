@@ -1,7 +1,9 @@
 #include "improve/star_ascent.h"
 
 #include "improve/coloring.h"
+#include "volume/counting_rows.h"
 
+#include <hex/base/parallel.h>
 #include <hex/improve/corner_energies.h>
 #include <hex/quality/scaled_jacobian.h>
 
@@ -14,6 +16,8 @@ namespace {
 constexpr double careless = 0.3;
 /// Energy of the shape that a scaled Jacobian may cost: the slope of the barrier at a gap of 0.1.
 constexpr double exchange = 10.0;
+/// Edges that are shorter than this share of what they should be do not get shorter still.
+constexpr double shortest = 0.05;
 /// Lengths of the tried steps in shares of the mean edge length.
 constexpr std::array<double, 6> steps = {0.4, 0.15, 0.05, 0.015, 0.005, 0.0015};
 
@@ -75,6 +79,20 @@ class StarAscent {
         return found;
     }
 
+    /// Vertices that the shape keeper looks at for each active vertex, beyond its own cells.
+    CompressedRows<VertexId> reads(const std::vector<char>& active) const {
+        return rows_by_counting<VertexId>(active.size(), [&](const auto& emit) {
+            if (mesh_.keeper() == nullptr) return;
+            for (std::size_t i = 0; i < active.size(); ++i) {
+                const VertexId v(i);
+                if (!active[i] || !mesh_.on_boundary(v)) continue;
+                mesh_.keeper()->visit_reach(v, [&](VertexId w) {
+                    if (active[w.index()] && w != v) emit(i, w);
+                });
+            }
+        });
+    }
+
   private:
     Vec3 tangential(VertexId v, Freedom freedom, const Vec3& d) const {
         const Vec3& axis = mesh_.axis(v);
@@ -88,6 +106,7 @@ class StarAscent {
         double smallest = 1.0;
         for (const std::uint32_t c : mesh_.corners_at(v)) {
             std::array<Vec3, 8> corners = mesh_.mesh().corner_positions(CellId(c / 8));
+            if (crushes(c, corners, p)) return -2.0;
             corners[c % 8] = p;
             const double quality = scaled_jacobian(corners);
             // Exactly 0 is an edge without length, from which there is no direction out again.
@@ -95,6 +114,23 @@ class StarAscent {
             if (smallest <= enough) break;
         }
         return smallest;
+    }
+
+    /// Whether an edge at corner c % 8 of cell c / 8 is too short with the corner at p, and shorter than now.
+    bool crushes(std::uint32_t c, const std::array<Vec3, 8>& corners, const Vec3& p) const {
+        if (mesh_.boxes().empty()) return false;
+        const Vec3& box = mesh_.boxes()[c / 8];
+        const auto& uvw = hexahedron::corner_uvw[c % 8];
+        for (const int n : hexahedron::corner_neighbours[c % 8]) {
+            const auto neighbour = static_cast<std::size_t>(n);
+            std::size_t axis = 0;
+            while (hexahedron::corner_uvw[neighbour][axis] == uvw[axis]) ++axis;
+            const double least = shortest * box[static_cast<Eigen::Index>(axis)];
+            const double square = (corners[neighbour] - p).squaredNorm();
+            if (square < least * least && square < (corners[neighbour] - corners[c % 8]).squaredNorm())
+                return true;
+        }
+        return false;
     }
 
     /// Against the gradient of the barrier around v.
@@ -119,6 +155,7 @@ class StarAscent {
 
 int raise_star_minima(SlidingMesh& mesh, const AscentOptions& options, const Context& context) {
     StarAscent ascent(mesh);
+    const CompressedRows<CellId> cells = vertex_cells(mesh.mesh());
     std::vector<double> minima;
     int sweeps = 0;
     for (; sweeps < options.most_sweeps; ++sweeps) {
@@ -136,9 +173,12 @@ int raise_star_minima(SlidingMesh& mesh, const AscentOptions& options, const Con
             if (values[c.index()] < bad)
                 for (const VertexId v : mesh.mesh().cell(c)) active[v.index()] = 1;
         std::size_t moved = 0;
-        // One after the other: the shape keeper looks at vertices beyond the star, which are not independent.
-        for (const auto& members : independent_classes(mesh.mesh(), active))
-            for (const VertexId v : members) moved += ascent.raise(v);
+        for (const auto& members : independent_classes(mesh.mesh(), cells, active, ascent.reads(active))) {
+            moved += parallel_reduce(
+                members.size(), std::size_t{0},
+                [&](std::size_t count, std::size_t i) { return count + ascent.raise(members[i]); },
+                [](std::size_t x, std::size_t y) { return x + y; }, 4);
+        }
         if (moved == 0) break;
     }
     return sweeps;

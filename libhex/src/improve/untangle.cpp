@@ -85,17 +85,16 @@ class UntangleImprover : public Improver {
     }
 };
 
-/// Whether bad cells have two boundary faces on one smooth region: at the edge between such faces the surface
-/// leaves an angle of nearly 180 degrees, and no motion of vertices makes that a good corner.
+/// Whether all of the worst cells have two boundary faces on one smooth region: at the edge between such faces
+/// the surface leaves an angle of nearly 180 degrees, and no motion of vertices makes that a good corner. A
+/// layer does not help the others.
 bool limited_by_flat_edges(const MinimumRaiser& raiser, const Context& context) {
     const HexMesh& mesh = raiser.current();
     const std::vector<double> values = scaled_jacobians(mesh, context);
-    const double bad = raiser.now().min + 0.1;
-    for (const CellId c : mesh.cells()) {
-        if (values[c.index()] > bad) continue;
-        for (const auto& ends : hexahedron::edge_corners) {
-            const auto& faces =
-                hexahedron::edge_faces[static_cast<std::size_t>(&ends - hexahedron::edge_corners.data())];
+    const auto has_flat_edge = [&](CellId c) {
+        for (std::size_t e = 0; e < hexahedron::edge_corners.size(); ++e) {
+            const auto& ends = hexahedron::edge_corners[e];
+            const auto& faces = hexahedron::edge_faces[e];
             if (!mesh.is_boundary(HexMesh::half_face(c, faces[0])) ||
                 !mesh.is_boundary(HexMesh::half_face(c, faces[1])))
                 continue;
@@ -103,8 +102,13 @@ bool limited_by_flat_edges(const MinimumRaiser& raiser, const Context& context) 
                 raiser.guide().freedom(mesh.corner(c, ends[1])) == Freedom::region)
                 return true;
         }
-    }
-    return false;
+        return false;
+    };
+    constexpr double about_the_worst = 0.01;
+    const double bad = raiser.now().min + about_the_worst;
+    for (const CellId c : mesh.cells())
+        if (values[c.index()] <= bad && !has_flat_edge(c)) return false;
+    return true;
 }
 
 /// untangle; but where, once the mesh is valid, elements with two boundary faces on one smooth region are
