@@ -97,6 +97,29 @@ TEST(QualityMean, GradientIsThatOfFiniteDifferences) {
     }
 }
 
+TEST(ShortEdgeEnergy, GradientIsThatOfFiniteDifferences) {
+    const Vec3 box(1.0, 3.0, 0.5);
+    const hex::ShortEdgeEnergy energy{.share = 0.9, .weight = 0.7};
+    int short_ones = 0;
+    for (unsigned seed = 1; seed <= 20; ++seed) {
+        const HexCorners corners = shaken_box(box, 0.2, seed);
+        HexCorners gradient;
+        gradient.fill(Vec3::Zero());
+        short_ones += energy.evaluate(corners, box, &gradient) > 0.01;
+        expect_gradient(corners, gradient,
+                        [&](const HexCorners& p) { return energy.evaluate(p, box, nullptr); });
+    }
+    EXPECT_GE(short_ones, 10);
+}
+
+TEST(ShortEdgeEnergy, IsNothingForLongEdgesAndInfiniteForNone) {
+    const hex::ShortEdgeEnergy energy;
+    EXPECT_EQ(energy.evaluate(shaken_box(Vec3(0.3, 0.6, 0.9), 0.0, 1), Vec3(1.0, 2.0, 3.0), nullptr), 0.0);
+    HexCorners corners = shaken_box(Vec3::Ones(), 0.0, 1);
+    corners[1] = corners[0];
+    EXPECT_TRUE(std::isinf(energy.evaluate(corners, Vec3::Ones(), nullptr)));
+}
+
 TEST(QualityMean, IsAtLeastTheDefectOfTheScaledJacobianAndZeroForABox) {
     for (unsigned seed = 1; seed <= 20; ++seed) {
         const HexCorners corners = shaken_box(Vec3::Ones(), 0.3, seed);

@@ -151,6 +151,27 @@ TEST(IndependentClasses, NeverHaveTwoVerticesInOneCell) {
     }
 }
 
+TEST(IndependentClasses, KeepApartWhoReadsWhom) {
+    const hex::HexMesh mesh = hex::test::grid(8, 2, 2);
+    const std::vector<char> all(mesh.vertex_count(), 1);
+    hex::CompressedRows<VertexId> reads;  // v reads v + 3 and v + 5, whatever cells they are in
+    for (std::size_t v = 0; v < mesh.vertex_count(); ++v) {
+        for (const std::size_t step : {3, 5})
+            if (v + step < mesh.vertex_count()) reads.values.emplace_back(v + step);
+        reads.offsets.push_back(reads.values.size());
+    }
+    std::size_t total = 0;
+    for (const auto& members :
+         hex::improving::independent_classes(mesh, hex::vertex_cells(mesh), all, reads)) {
+        total += members.size();
+        const std::set<VertexId> set(members.begin(), members.end());
+        for (const VertexId v : members)
+            for (const VertexId other : reads[v.index()])
+                EXPECT_EQ(set.count(other), 0u) << v << " reads " << other;
+    }
+    EXPECT_EQ(total, mesh.vertex_count());
+}
+
 TEST(IndependentClasses, HoldTheWantedVerticesOnly) {
     const hex::HexMesh mesh = hex::test::grid(3, 3, 3);
     std::vector<char> wanted(mesh.vertex_count(), 0);

@@ -111,14 +111,47 @@ hex::PolygonSoup vaulted_box(int pieces, double length) {
     return soup;
 }
 
-TEST(Auto, KeepsTheBoundaryAsCloseToTheSurfaceAsItWas) {
-    const hex::TriangleMesh surface = hex::make_triangle_mesh(vaulted_box(8, 4.0));
-    HexMesh mesh = shaken_grid(4, 4, 2, 0.3, 7);
+/// A grid in the vaulted box, shaken.
+HexMesh vaulted_grid(int nx, int ny, int nz, double amount, unsigned seed) {
+    HexMesh mesh = shaken_grid(nx, ny, nz, amount, seed);
     for (const VertexId v : mesh.vertices()) {
-        Vec3 p = mesh.position(v);
+        Vec3 p = mesh.position(v).cwiseProduct(Vec3(4.0 / nx, 4.0 / ny, 2.0 / nz));
         p.z() += 0.5 * p.z() * std::sqrt(std::max(0.0, 1.0 - (p.x() / 2.0 - 1.0) * (p.x() / 2.0 - 1.0)));
         mesh.set_position(v, p);
     }
+    return mesh;
+}
+
+TEST(Auto, SameBytesForAnyNumberOfThreadsOnASurface) {
+    const hex::TriangleMesh surface = hex::make_triangle_mesh(vaulted_box(8, 4.0));
+    hex::ImproveOptions options;
+    options.surface = &surface;
+    for (unsigned seed = 1; seed <= 3; ++seed) {
+        const HexMesh mesh = vaulted_grid(6, 6, 3, 0.4, seed);
+        const auto one = hex::improve(mesh, options, hex::test::with_thread_count(1));
+        EXPECT_GT(one.report.after.min, one.report.before.min);
+        for (const int threads : {2, 4}) {
+            const auto many = hex::improve(mesh, options, hex::test::with_thread_count(threads));
+            EXPECT_TRUE(hex::test::identical(one.mesh, many.mesh)) << seed << ", " << threads;
+        }
+    }
+}
+
+TEST(Auto, LeavesNoEdgeWithoutLength) {
+    const hex::TriangleMesh surface = hex::make_triangle_mesh(vaulted_box(8, 4.0));
+    hex::ImproveOptions options;
+    options.surface = &surface;
+    for (unsigned seed = 1; seed <= 3; ++seed) {
+        const HexMesh mesh = hex::improve(vaulted_grid(4, 4, 2, 0.4, seed), options).mesh;
+        const hex::EdgeTable edges = hex::edge_table(mesh);
+        for (const auto& ends : edges.vertices)
+            EXPECT_GT((mesh.position(ends[0]) - mesh.position(ends[1])).norm(), 0.04);
+    }
+}
+
+TEST(Auto, KeepsTheBoundaryAsCloseToTheSurfaceAsItWas) {
+    const hex::TriangleMesh surface = hex::make_triangle_mesh(vaulted_box(8, 4.0));
+    const HexMesh mesh = vaulted_grid(4, 4, 2, 0.3, 7);
     hex::ImproveOptions options;
     options.surface = &surface;
     const auto report = hex::improve(mesh, options).report;

@@ -148,8 +148,7 @@ double ShortEdgeEnergy::evaluate(const HexCorners& corners, const Vec3& referenc
         const auto a = static_cast<std::size_t>(ends[0]);
         const auto b = static_cast<std::size_t>(ends[1]);
         const Vec3 edge = corners[b] - corners[a];
-        const double wanted =
-            share * reference[static_cast<Eigen::Index>(axis_between(ends[0], ends[1]))];
+        const double wanted = share * reference[static_cast<Eigen::Index>(axis_between(ends[0], ends[1]))];
         const double square = edge.squaredNorm();
         if (square >= wanted * wanted) continue;
         if (!(square > 0.0)) return infinity;

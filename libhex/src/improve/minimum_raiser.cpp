@@ -62,8 +62,8 @@ constexpr double negligible = 1e-4;
 constexpr double worth_a_round = 0.005;
 /// Meshes that are remembered until one is chosen.
 constexpr std::size_t most_candidates = 12;
-/// How far below the minimum the floor lies while the mean is raised, and what that may cost a minimum that is
-/// good enough; a bad one may lose almost nothing.
+/// How far below the minimum the floor lies while the mean is raised, and what that may cost a minimum that
+/// is good enough; a bad one may lose almost nothing.
 constexpr double minimum_for_mean = 0.04;
 constexpr double bad_minimum_for_mean = 0.005;
 

@@ -85,9 +85,9 @@ class UntangleImprover : public Improver {
     }
 };
 
-/// Whether all of the worst cells have two boundary faces on one smooth region: at the edge between such faces
-/// the surface leaves an angle of nearly 180 degrees, and no motion of vertices makes that a good corner. A
-/// layer does not help the others.
+/// Whether all of the worst cells have two boundary faces on one smooth region: at the edge between such
+/// faces the surface leaves an angle of nearly 180 degrees, and no motion of vertices makes that a good
+/// corner. A layer does not help the others.
 bool limited_by_flat_edges(const MinimumRaiser& raiser, const Context& context) {
     const HexMesh& mesh = raiser.current();
     const std::vector<double> values = scaled_jacobians(mesh, context);

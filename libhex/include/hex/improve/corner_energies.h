@@ -48,10 +48,10 @@ struct QualityMean {
 };
 
 /// Keeps edges from vanishing, which a scaled Jacobian, free of scale, does not mind: the sum over the twelve
-/// edges of weight max(0, log(share L / l))^2, l the length of the edge, L that of the reference box along it.
-/// Nothing for edges longer than `share` of the reference, infinite for those without length.
+/// edges of weight max(0, log(share L / l))^2, l the length of the edge, L that of the reference box along
+/// it. Nothing for edges longer than `share` of the reference, infinite for those without length.
 struct ShortEdgeEnergy {
-    double share = 0.2;  ///< > 0
+    double share = 0.2;   ///< > 0
     double weight = 1.0;  ///< >= 0
     /// \param reference lengths of the reference box along u, v, w, > 0
     double evaluate(const HexCorners& corners, const Vec3& reference, HexCorners* gradient) const;
