@@ -1,3 +1,5 @@
+#include "improve/quality_numbers.h"
+
 #include <hex/improve/corner_energies.h>
 #include <hex/volume/hexahedron.h>
 
@@ -45,63 +47,24 @@ struct Frame {
     }
 };
 
-/// The nine numbers whose minimum is Verdict's scaled Jacobian: scaled determinants of the edges at the eight
-/// corners, and of the principal axes at the centre.
-struct ScaledDeterminants {
-    static constexpr std::size_t count = 9;
-    std::array<std::array<Vec3, 3>, count> vectors;
-    std::array<double, count> value;
-    std::array<double, count> inverse_volume;
-    bool valid = true;  ///< no vector has no length
+using Numbers = improving::QualityNumbers<double>;
 
-    explicit ScaledDeterminants(const HexCorners& corners) {
-        vectors[8] = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
-        for (std::size_t corner = 0; corner < 8; ++corner) {
-            for (std::size_t i = 0; i < 3; ++i) {
-                const auto neighbour = static_cast<std::size_t>(hexahedron::corner_neighbours[corner][i]);
-                vectors[corner][i] = corners[neighbour] - corners[corner];
-                if (hexahedron::corner_uvw[corner][i] == 1)
-                    vectors[8][i] += corners[corner];
-                else
-                    vectors[8][i] -= corners[corner];
-            }
-        }
-        for (std::size_t k = 0; k < count; ++k) {
-            const auto& v = vectors[k];
-            const double product = v[0].squaredNorm() * v[1].squaredNorm() * v[2].squaredNorm();
-            if (!(product > 0.0)) {
-                valid = false;
-                return;
-            }
-            inverse_volume[k] = 1.0 / std::sqrt(product);
-            value[k] = inverse_volume[k] * v[0].dot(v[1].cross(v[2]));
-        }
-    }
+Numbers numbers_of(const HexCorners& corners) {
+    std::array<quality::Vector<double>, 8> p;
+    for (std::size_t i = 0; i < 8; ++i) p[i] = {corners[i].x(), corners[i].y(), corners[i].z()};
+    return {p, 1.0, 0.0};
+}
 
-    /// Adds the gradient of a function of the numbers, whose derivatives for them are given.
-    void add_gradient(const std::array<double, count>& slope, HexCorners& gradient) const {
-        for (std::size_t k = 0; k < count; ++k) {
-            for (std::size_t i = 0; i < 3; ++i) {
-                const auto& v = vectors[k];
-                const Vec3 part = slope[k] * (inverse_volume[k] * v[(i + 1) % 3].cross(v[(i + 2) % 3]) -
-                                              (value[k] / v[i].squaredNorm()) * v[i]);
-                if (k < 8) {
-                    gradient[static_cast<std::size_t>(hexahedron::corner_neighbours[k][i])] += part;
-                    gradient[k] -= part;
-                    continue;
-                }
-                for (std::size_t corner = 0; corner < 8; ++corner) {
-                    if (hexahedron::corner_uvw[corner][i] == 1)
-                        gradient[corner] += part;
-                    else
-                        gradient[corner] -= part;
-                }
-            }
-        }
-    }
+/// All above the floor, which what is not a number is not.
+bool above(const Numbers& numbers, double floor) {
+    return std::all_of(numbers.value.begin(), numbers.value.end(), [&](double q) { return q > floor; });
+}
 
-    double smallest() const { return *std::min_element(value.begin(), value.end()); }
-};
+void add_gradient(const Numbers& numbers, const std::array<double, Numbers::count>& slope,
+                  HexCorners& gradient) {
+    const auto own = numbers.gradient(slope);
+    for (std::size_t k = 0; k < 8; ++k) gradient[k] += Vec3(own[k].x, own[k].y, own[k].z);
+}
 
 }  // namespace
 
@@ -163,22 +126,22 @@ double ShortEdgeEnergy::evaluate(const HexCorners& corners, const Vec3& referenc
 }
 
 double QualityBarrier::evaluate(const HexCorners& corners, HexCorners* gradient) const {
-    const ScaledDeterminants numbers(corners);
-    if (!numbers.valid || !(numbers.smallest() > floor)) return infinity;
-    std::array<double, ScaledDeterminants::count> slope;
+    const Numbers numbers = numbers_of(corners);
+    if (!above(numbers, floor)) return infinity;
+    std::array<double, Numbers::count> slope;
     double product = 1.0;
     for (std::size_t k = 0; k < slope.size(); ++k) {
         const double gap = numbers.value[k] - floor;
         product *= gap;
         slope[k] = -1.0 / gap;
     }
-    if (gradient != nullptr) numbers.add_gradient(slope, *gradient);
+    if (gradient != nullptr) add_gradient(numbers, slope, *gradient);
     return -std::log(product);
 }
 
 double QualityMean::evaluate(const HexCorners& corners, HexCorners* gradient) const {
-    const ScaledDeterminants numbers(corners);
-    if (!numbers.valid || !(numbers.smallest() > floor)) return infinity;
+    const Numbers numbers = numbers_of(corners);
+    if (!above(numbers, floor)) return infinity;
     const auto power = [](double x) { return (x * x) * (x * x) * (x * x); };
     double sum = 1e-18;  // the root has no slope at 0
     double product = 1.0;
@@ -188,13 +151,13 @@ double QualityMean::evaluate(const HexCorners& corners, HexCorners* gradient) co
     }
     const double norm = std::cbrt(std::sqrt(sum));
     if (gradient != nullptr) {
-        std::array<double, ScaledDeterminants::count> slope;
+        std::array<double, Numbers::count> slope;
         for (std::size_t k = 0; k < slope.size(); ++k) {
             const double defect = 1.0 - numbers.value[k];
             slope[k] = -norm / sum * (defect * defect) * (defect * defect) * defect -
                        barrier_weight / (numbers.value[k] - floor);
         }
-        numbers.add_gradient(slope, *gradient);
+        add_gradient(numbers, slope, *gradient);
     }
     return norm - barrier_weight * std::log(product);
 }

@@ -250,18 +250,14 @@ void MinimumRaiser::raise_mean() {
     if (candidates_.front().record.inverted > 0 || deadline_.passed()) return;
     const Candidate start = candidates_.front();
     sliding_.set_positions(start.positions);
-    QualityMean mean;
+    QualityMeshEnergy mean(sliding_.boxes());
     mean.floor = start.record.min - minimum_for_mean;
+    mean.mean_weight = 1.0;
+    mean.barrier_weight = QualityMean().barrier_weight;
     DescentOptions descent;
     descent.most_iterations = 100;
     descent.satisfied = [&] { return deadline_.passed(); };
-    (void)descend(
-        sliding_,
-        [&](std::size_t c, const HexCorners& corners, HexCorners* gradient) {
-            return mean.evaluate(corners, gradient) +
-                   ShortEdgeEnergy().evaluate(corners, sliding_.boxes()[c], gradient);
-        },
-        descent, context_);
+    (void)descend(sliding_, mean, descent, context_);
     record("mean", false);
     const double cost =
         start.record.min - minimum_for_mean >= good_enough ? minimum_for_mean : bad_minimum_for_mean;
@@ -320,16 +316,16 @@ void MinimumRaiser::restore_fidelity() {
 void MinimumRaiser::untangle() {
     const std::vector<Vec3>& boxes = sliding_.boxes();
     FoldoverEnergy energy;
+    const PerCellEnergy mesh_energy([&](std::size_t c, const HexCorners& corners, HexCorners* gradient) {
+        return energy.evaluate(corners, boxes[c], gradient);
+    });
     double det = smallest_determinant(sliding_.mesh(), boxes);
     energy.epsilon = det > 0.0 ? 1e-3 : std::sqrt(1e-6 + 0.04 * det * det);
-    const auto cell_energy = [&](std::size_t c, const HexCorners& corners, HexCorners* gradient) {
-        return energy.evaluate(corners, boxes[c], gradient);
-    };
     for (int k = 0; k < most_continuations && !deadline_.passed(); ++k) {
         DescentOptions descent;
         descent.most_iterations = 100;
         descent.satisfied = [&] { return deadline_.passed(); };
-        const DescentResult result = descend(sliding_, cell_energy, descent, context_);
+        const DescentResult result = descend(sliding_, mesh_energy, descent, context_);
         det = smallest_determinant(sliding_.mesh(), boxes);
         record("untangle", exact_);
         if (now_.inverted > 0 && now_.inverted < 1 + sliding_.mesh().cell_count() / 200) ascend();
@@ -350,7 +346,7 @@ void MinimumRaiser::untangle() {
     descent.most_iterations = 100;
     const double before = now_.min;
     const std::vector<Vec3> positions(sliding_.positions().begin(), sliding_.positions().end());
-    if (det > 0.0) (void)descend(sliding_, cell_energy, descent, context_);
+    if (det > 0.0) (void)descend(sliding_, mesh_energy, descent, context_);
     record("untangle", exact_);
     if (now_.inverted > 0) {
         sliding_.set_positions(positions);
@@ -375,19 +371,13 @@ void MinimumRaiser::lower_barrier(double gap) {
     constexpr int most_repeats = 5;
     for (int i = 0; i < most_repeats; ++i) {
         const ImproveRecord before = now_;
-        QualityBarrier barrier;
+        QualityMeshEnergy barrier(sliding_.boxes());
         barrier.floor = before.min - gap;
         DescentOptions descent;
         descent.most_iterations = 50;
         descent.relative_gain = 1e-5;
         descent.satisfied = [&] { return deadline_.passed(); };
-        (void)descend(
-            sliding_,
-            [&](std::size_t c, const HexCorners& corners, HexCorners* gradient) {
-                return barrier.evaluate(corners, gradient) +
-                       ShortEdgeEnergy().evaluate(corners, sliding_.boxes()[c], gradient);
-            },
-            descent, context_);
+        (void)descend(sliding_, barrier, descent, context_);
         record("barrier", exact_);
         if (deadline_.passed() || now_.min - before.min < 0.25 * gap) return;
     }

@@ -4,6 +4,7 @@
 
 #include <hex/base/parallel.h>
 
+#include <algorithm>
 #include <cmath>
 #include <deque>
 #include <limits>
@@ -81,18 +82,14 @@ void SlidingMesh::attach() {
         64);
 }
 
-double SlidingMesh::evaluate(const CellEnergy& energy, std::vector<Vec3>* gradient) const {
-    parallel_for(
-        mesh_.cell_count(),
-        [&](std::size_t c) {
-            std::array<Vec3, 8>* own = nullptr;
-            if (gradient != nullptr) {
-                own = &cell_gradient_[c];
-                own->fill(Vec3::Zero());
-            }
-            cell_value_[c] = energy(c, mesh_.corner_positions(CellId(c)), own);
-        },
-        128);
+double SlidingMesh::evaluate(const MeshEnergy& energy, std::vector<Vec3>* gradient) const {
+    constexpr std::size_t chunk = 128;
+    parallel_for((mesh_.cell_count() + chunk - 1) / chunk,
+                 [&](std::size_t i) {
+                     energy.evaluate(mesh_, i * chunk, std::min((i + 1) * chunk, mesh_.cell_count()),
+                                     cell_value_, gradient != nullptr ? cell_gradient_.data() : nullptr);
+                 },
+                 1);
     double sum = parallel_reduce(
         cell_value_.size(), 0.0, [&](double s, std::size_t c) { return s + cell_value_[c]; },
         [](double a, double b) { return a + b; });
@@ -196,7 +193,7 @@ std::vector<double> SlidingMesh::vertex_sizes() const {
     return sizes;
 }
 
-DescentResult descend(SlidingMesh& mesh, const SlidingMesh::CellEnergy& energy, const DescentOptions& options,
+DescentResult descend(SlidingMesh& mesh, const MeshEnergy& energy, const DescentOptions& options,
                       const Context& context) {
     struct Pair {
         std::vector<Vec3> move, change;

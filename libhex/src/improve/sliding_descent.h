@@ -3,6 +3,7 @@
 #pragma once
 
 #include "improve/boundary_guide.h"
+#include "improve/cell_energies.h"
 #include "improve/shape_keeper.h"
 
 #include <hex/base/context.h>
@@ -45,12 +46,9 @@ class SlidingMesh {
 
     /// Brings every boundary vertex to its nearest place on its part of the surface.
     void attach();
-    /// Value of the energy `cell_energy(cell, corners, gradient or null)` summed over the cells, at positions
-    /// given. With `gradient`, its derivative for each vertex, made tangential at the current places. The
-    /// same bits for any number of threads; infinite as soon as one cell is.
-    using CellEnergy = std::function<double(std::size_t cell, const std::array<Vec3, 8>& corners,
-                                            std::array<Vec3, 8>* gradient)>;
-    double evaluate(const CellEnergy& energy, std::vector<Vec3>* gradient) const;
+    /// Value of the energy. With `gradient`, its derivative for each vertex, made tangential at the current
+    /// places. The same bits for any number of threads; infinite as soon as one cell is.
+    double evaluate(const MeshEnergy& energy, std::vector<Vec3>* gradient) const;
 
     /// Drops the part of each vector that leaves the surface, and everything where vertices are fixed. With
     /// slack, only what leaves the slack; `sign` is -1 for gradients, whose opposite is where vertices go.
@@ -111,7 +109,7 @@ struct DescentResult {
 /// L-BFGS (Nocedal and Wright, Numerical Optimization, algorithm 7.4) with vertices scaled by their size,
 /// backtracking line search and retraction to the surface; directions of earlier iterations are carried along
 /// by projection to the present tangent spaces. The energy never rises.
-DescentResult descend(SlidingMesh& mesh, const SlidingMesh::CellEnergy& energy, const DescentOptions& options,
+DescentResult descend(SlidingMesh& mesh, const MeshEnergy& energy, const DescentOptions& options,
                       const Context& context);
 
 }  // namespace hex::improving

@@ -136,7 +136,7 @@ class Snapper {
         improving::DescentOptions descent;
         descent.most_iterations = iterations_per_pull;
         descent.relative_gain = 1e-5;
-        (void)improving::descend(mesh_, energy, descent, context_);
+        (void)improving::descend(mesh_, improving::PerCellEnergy(energy), descent, context_);
         record(0);
     }
 
