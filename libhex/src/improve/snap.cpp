@@ -27,28 +27,40 @@ constexpr std::array<double, 10> pulls = {1.0, 2.0, 4.0, 10.0, 25.0, 60.0, 150.0
 constexpr int iterations_per_pull = 20;
 /// Share of the pull that also acts along the surface.
 constexpr double tangential_share = 0.02;
+/// What is off the surface by more than this share of the size is pulled harder, round by round by this
+/// factor, as long as the sum of squares falls below this share.
+constexpr double tolerated = 0.05;
+constexpr double harder = 2.0;
+constexpr int most_harder_pulls = 20;
+constexpr double worth_pulling = 0.9;
+constexpr int rings_that_give_way = 3;
 /// A boundary vertex may go to its place on the surface if the scaled Jacobians around it stay above this,
 /// or do not fall.
 constexpr double worth_keeping = 0.1;
 constexpr int most_attaching_passes = 6;
 
+/// Mean lengths of the edges along the three axes of a cell; of the bottom only, where that is all there is.
+Vec3 box_of(const HexMesh& mesh, const HexCell& cell, bool bottom_only) {
+    constexpr std::array<Eigen::Index, 12> axis = {0, 1, 0, 1, 2, 2, 2, 2, 0, 1, 0, 1};
+    Vec3 box = Vec3::Zero();
+    for (std::size_t e = 0; e < 12; ++e) {
+        const auto& [a, b] = hexahedron::edge_corners[e];
+        if (bottom_only && (a > 3 || b > 3)) continue;
+        box[axis[e]] += (mesh.position(cell[static_cast<std::size_t>(a)]) -
+                         mesh.position(cell[static_cast<std::size_t>(b)]))
+                            .norm() /
+                        (bottom_only ? 2.0 : 4.0);
+    }
+    return box;
+}
+
 /// Edge lengths that the cells should have, along their three axes.
 std::vector<Vec3> wished_boxes(const HexMesh& before, const HexMesh& layered) {
-    constexpr std::array<Eigen::Index, 12> axis = {0, 1, 0, 1, 2, 2, 2, 2, 0, 1, 0, 1};
-    std::vector<Vec3> boxes(layered.cell_count(), Vec3::Zero());
+    std::vector<Vec3> boxes(layered.cell_count());
     parallel_for(boxes.size(), [&](std::size_t c) {
-        const HexCell& cell = layered.cell_array()[c];
         const bool in_layer = c >= before.cell_count();
-        Vec3& box = boxes[c];
-        for (std::size_t e = 0; e < 12; ++e) {
-            const auto& [a, b] = hexahedron::edge_corners[e];
-            if (in_layer && (a > 3 || b > 3)) continue;
-            box[axis[e]] += (before.position(cell[static_cast<std::size_t>(a)]) -
-                             before.position(cell[static_cast<std::size_t>(b)]))
-                                .norm() /
-                            (in_layer ? 2.0 : 4.0);
-        }
-        if (in_layer) box.z() = layer_thickness * std::min(box.x(), box.y());
+        boxes[c] = box_of(before, layered.cell_array()[c], in_layer);
+        if (in_layer) boxes[c].z() = layer_thickness * std::min(boxes[c].x(), boxes[c].y());
     });
     return boxes;
 }
@@ -81,6 +93,7 @@ class Snapper {
             aim();
             pull(pulls[round]);
         }
+        pull_harder();
         attach();
     }
 
@@ -138,6 +151,55 @@ class Snapper {
         descent.relative_gain = 1e-5;
         (void)improving::descend(mesh_, improving::PerCellEnergy(energy), descent, context_);
         record(0);
+    }
+
+    /// Where the solid is thinner than the cells, their wished shape holds the boundary off the surface. So
+    /// cells there may keep the shape that they have come to, and the pull grows.
+    void pull_harder() {
+        double before = std::numeric_limits<double>::infinity();
+        double strength = pulls.back();
+        for (int round = 0; round < most_harder_pulls; ++round, strength *= harder) {
+            aim();
+            std::vector<char> held(mesh_.mesh().vertex_count(), 0);
+            const double off = find_held_off(held);
+            if (off == 0.0 || off > worth_pulling * before) return;
+            before = off;
+            give_way_around(std::move(held));
+            pull(strength);
+        }
+    }
+
+    /// Marks boundary vertices that are farther from their targets than tolerated; returns the sum of the
+    /// squares of their distances, in squares of the size of the quads there.
+    double find_held_off(std::vector<char>& held) const {
+        double sum = 0.0;
+        for (const VertexId v : boundary_.boundary_vertices) {
+            const double square = (targets_[v.index()].point - mesh_.mesh().position(v)).squaredNorm() *
+                                  stiffness_[v.index()] * static_cast<double>(mesh_.corners_at(v).size());
+            if (square <= tolerated * tolerated) continue;
+            held[v.index()] = 1;
+            sum += square;
+        }
+        return sum;
+    }
+
+    /// The present shape is the wished one of all cells in so many rings around the marked vertices.
+    void give_way_around(std::vector<char> marked) {
+        const HexMesh& mesh = mesh_.mesh();
+        std::vector<char> reached(mesh.cell_count(), 0);
+        for (int ring = 0; ring < rings_that_give_way; ++ring) {
+            for (std::size_t c = 0; c < reached.size(); ++c) {
+                const HexCell& cell = mesh.cell_array()[c];
+                reached[c] =
+                    std::any_of(cell.begin(), cell.end(), [&](VertexId v) { return marked[v.index()] != 0; });
+            }
+            for (std::size_t c = 0; c < reached.size(); ++c)
+                if (reached[c])
+                    for (const VertexId v : mesh.cell_array()[c]) marked[v.index()] = 1;
+        }
+        parallel_for(boxes_.size(), [&](std::size_t c) {
+            if (reached[c]) boxes_[c] = box_of(mesh, mesh.cell_array()[c], false);
+        });
     }
 
     void record(std::size_t moved) {
