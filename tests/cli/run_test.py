@@ -68,6 +68,8 @@ class Run(CommandTest):
         report = self.automatic('labelling')
         self.assertGreater(report['patches'], 6)
         self.assertNotIn('route_reason', report)
+        # The mesh kept is among those that were tried.
+        self.assertIn(report['surface_distance_percent'], [t['surface_distance_percent'] for t in report['tries']])
         # Going on after a stage keeps to the route.
         self.run_program('run', BRACKET / 'bracket.stl', '-o', 'automatic', '--from', 'map', '--to', 'map', '-s', 0)
         again = self.report('automatic')
@@ -76,6 +78,55 @@ class Run(CommandTest):
     def test_blocks_are_made_from_the_bare_surface_by_voxels(self):
         self.automatic('voxel', '--route', 'voxel', '--target-hexes', 1500)
         self.assertFalse((self.folder / 'automatic' / '2-patches.k').exists())
+
+    def bare(self, surface, folder, *arguments):
+        """Runs from a bare surface to the improved mesh; the report."""
+        self.run_program('run', surface, '-o', folder, '--to', 'improve', *arguments)
+        report = self.report(folder)
+        self.assertEqual(report['inverted'], 0)
+        return report
+
+    def test_a_bare_surface_gives_the_same_bytes_for_any_number_of_threads(self):
+        for route in ('labelling', 'voxel'):
+            for threads in (1, 2):
+                report = self.bare(BRACKET / 'bracket.stl', f'{route}{threads}', '--route', route, '--threads', threads,
+                                   '--target-hexes', 600)
+                self.assertEqual(report['route'], route)
+            one, two = self.folder / f'{route}1', self.folder / f'{route}2'
+            self.assertEqual(sorted(path.name for path in one.iterdir()), sorted(path.name for path in two.iterdir()))
+            for path in one.iterdir():
+                if path.name == 'report.json':
+                    continue  # tells times
+                with self.subTest(route=route, file=path.name):
+                    self.assertEqual(path.read_bytes(), (two / path.name).read_bytes())
+
+    def boxes(self, name, *corners):
+        """Boxes between two corners each; those whose corners are the wrong way round are voids."""
+        points, triangles = [], []
+        for low, high in corners:
+            base = len(points)
+            points += [[(low, high)[i >> axis & 1][axis] for axis in range(3)] for i in range(8)]
+            for a, b, c, d in ((0, 2, 3, 1), (4, 5, 7, 6), (0, 1, 5, 4), (2, 6, 7, 3), (0, 4, 6, 2), (1, 3, 7, 5)):
+                triangles += [[base + 1 + i for i in t] for t in ((a, b, c), (a, c, d))]
+        text = ''.join('v {} {} {}\n'.format(*p) for p in points) + ''.join('f {} {} {}\n'.format(*t) for t in triangles)
+        (self.folder / name).write_text(text)
+        return self.folder / name
+
+    def test_voids_and_several_components_by_both_routes(self):
+        shell = self.boxes('shell.obj', ((0, 0, 0), (3, 3, 3)), ((2, 2, 2), (1, 1, 1)))
+        pair = self.boxes('pair.obj', ((0, 0, 0), (1, 1, 1)), ((2, 0.5, 0), (3, 2, 0.8)))
+        for surface, volume in ((shell, 26.0), (pair, 2.2)):
+            for route in ('labelling', 'voxel'):
+                with self.subTest(surface=surface.name, route=route):
+                    report = self.bare(surface, 'out', '--route', route, '--target-hexes', 1000)
+                    self.assertEqual(report['route'], route)
+                    self.assertGreater(report['min_scaled_jacobian'], 0.5)
+                    self.assertLess(report['surface_distance_percent'], 0.01)
+                    self.run_program('check', self.folder / 'out' / '4-improve.vtk', '--json', 'check.json')
+                    facts = json.loads((self.folder / 'check.json').read_text())
+                    self.assertTrue(facts['boundary']['watertight'])
+                    # The void is left out, and both components are there.
+                    self.assertAlmostEqual(facts['metrics']['volume']['mean'] * facts['hexes'], volume, places=6)
 
     def test_what_is_missing_is_named(self):
         surface = BRACKET / 'bracket.stl'

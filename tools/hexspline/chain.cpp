@@ -12,7 +12,6 @@
 #include <hex/io/surface_file.h>
 #include <hex/map/map.h>
 #include <hex/polycube/blocks.h>
-#include <hex/polycube/polycube.h>
 #include <hex/polycube/voxel.h>
 #include <hex/quality/surface_distance.h>
 #include <spline/io/bext.h>
@@ -31,24 +30,6 @@ namespace cli {
 namespace {
 
 constexpr std::array<const char*, 5> stage_names = {"segment", "polycube", "map", "improve", "spline"};
-constexpr std::size_t polycube_stage = 1;
-
-/// Where no size is asked for, the route `labelling` starts from so many hexahedra, and takes more by this
-/// factor until the mesh follows the surface.
-constexpr double first_target = 1000;
-constexpr double target_growth = 1.5;
-constexpr double last_target = 8000;
-/// What follows means: no farther apart than this, in percent of the diagonal, as mapped and after
-/// improvement.
-constexpr double wished_distance = 1.6;
-/// Blocks that even the finest mesh does not bring nearer than this are given up.
-constexpr double hopeless_distance = 5.0;
-/// How often a mesh is made anew because the improved one is inverted or too far from the surface.
-constexpr int most_meshes = 3;
-/// SegmentOptions::attempt goes up to this.
-constexpr int last_attempt = 3;
-/// Other labels are tried while no more meshes than this were made in vain: that is what takes time.
-constexpr int most_late_failures = 1;
 
 std::size_t stage_index(const std::string& option, const std::string& name) {
     for (std::size_t i = 0; i < stage_names.size(); ++i) {
@@ -92,20 +73,17 @@ int Chain::run() {
     const std::size_t last = stage_index("to", line_.get<std::string>("to"));
     if (first > last) throw hex::Error(hex::ErrorKind::usage, "--from comes after --to");
     make_folder();
-    choose_route(first == 0);
+    choose_route(first);
     for (std::size_t stage = first; stage <= last; ++stage) {
         try {
             run_stage(stage);
         } catch (const RouteClosed& closed) {
-            if (stage > polycube_stage) ++late_failures_;
-            line_.info("no valid mesh from these labels: " + closed.reason);
-            if (!take_other_labels()) take_voxel_route(closed.reason);
-            stage = polycube_stage - 1;
+            stage = go_on_after(closed.reason);
         }
     }
     double total = 0;
     for (const auto& [stage, seconds] : seconds_.items()) total += seconds.get<double>();
-    report_["route"] = route_;
+    if (!choice_.tries().empty()) report_["tries"] = choice_.tries();
     seconds_["total"] = total;
     report_["seconds"] = seconds_;
     hex::io::write_file(folder_ / "report.json", report_.dump(2) + "\n");
@@ -140,13 +118,14 @@ void Chain::make_folder() {
         throw hex::Error(hex::ErrorKind::output, "the output folder cannot be made", folder_.string());
 }
 
-void Chain::choose_route(bool from_start) {
+void Chain::choose_route(std::size_t first) {
     const auto wish = line_.get<std::string>("route");
     if (wish != "auto" && wish != "labelling" && wish != "voxel")
         throw hex::Error(hex::ErrorKind::usage, "--route is not known: '" + wish + "'", {},
                          "use auto, labelling or voxel");
     // An earlier run's files are gone on with along its route.
-    const std::string earlier = from_start ? std::string() : route_of_report(folder_ / "report.json");
+    const std::string earlier =
+        first == segment_stage ? std::string() : route_of_report(folder_ / "report.json");
     if (line_.given("segmentation") || line_.given("blocks"))
         route_ = "given";
     else if (wish == "voxel")
@@ -161,27 +140,13 @@ void Chain::choose_route(bool from_start) {
     report_["route"] = route_;  // first in the file
 }
 
-void Chain::take_voxel_route(const std::string& reason) {
-    if (line_.get<std::string>("route") == "labelling")
-        throw hex::Error(hex::ErrorKind::no_result, "the route by labelling ends: " + reason,
-                         line_.input().string(),
-                         "allow --route auto, or give a segmentation and blocks by hand");
-    line_.info("the route by labelling ends; taking the route by voxels");
-    route_ = "voxel";
-    report_["route_reason"] = reason;
-    patches_.reset();
-    blocks_.reset();
-    mapped_.reset();
-    for (const char* key : {"patches", "block_structure", "improve"}) report_.erase(key);
-    if (report_.contains("label_corners")) report_["corners"] = report_["label_corners"];
-    for (const char* name : {"2-polycube.k", "2-patches.k"}) std::filesystem::remove(folder_ / name);
-}
-
 void Chain::segment() {
     SurfaceInput input = load_surface_input(line_, line_.input());
     surface_ = std::move(input.mesh);
     report_["repair"] = std::move(input.repair);
     label(0);
+    first_labels_ = segmentation_;
+    first_report_ = report_;
 }
 
 void Chain::label(int attempt) {
@@ -190,6 +155,7 @@ void Chain::label(int attempt) {
     options.attempt = attempt;
     if (line_.given("weight")) options.method = "hbecvt";
     auto result = hex::segment(*surface_, options, line_.context());
+    choice_.count_labelled(surface_->n_faces());
     if (std::find(tried_labels_.begin(), tried_labels_.end(), result.segmentation.labels) !=
         tried_labels_.end())
         return;
@@ -205,21 +171,14 @@ void Chain::label(int attempt) {
                            {"triangle", repair.triangle},
                            {"triangles", repair.triangles}});
     report_["repairs"] = repairs;
-    hex::io::write_labels(folder_ / "1-labels.txt", result.segmentation.labels);
     surface_ = hex::with_labels(std::move(*surface_), result.segmentation);
-    hex::io::write_surface(folder_ / "1-segment.k", hex::to_soup(*surface_));
     segmentation_ = std::move(result.segmentation);
+    write_labels();
 }
 
-bool Chain::take_other_labels() {
-    // Only where this run made labels by the method that has others to offer.
-    if (tried_labels_.empty() || line_.given("weight") || late_failures_ > most_late_failures) return false;
-    const std::size_t tried = tried_labels_.size();
-    for (int attempt = attempt_ + 1; attempt <= last_attempt; ++attempt) {
-        label(attempt);
-        if (tried_labels_.size() > tried) return true;
-    }
-    return false;
+void Chain::write_labels() const {
+    hex::io::write_labels(folder_ / "1-labels.txt", segmentation_->labels);
+    hex::io::write_surface(folder_ / "1-segment.k", hex::to_soup(*surface_));
 }
 
 void Chain::polycube() {
@@ -249,8 +208,7 @@ void Chain::polycube_of_patches() {
     for (const auto f : mesh.faces())
         mesh.data(f).part = result.polycube.layout.patch_of_triangle[static_cast<std::size_t>(f.idx())] + 1;
     patches_ = std::move(mesh);
-    hex::io::write_surface(folder_ / "2-polycube.k", hex::polycube_surface(result.polycube));
-    hex::io::write_surface(folder_ / "2-patches.k", hex::to_soup(*patches_));
+    write_polycube(result.polycube);
     if (!line_.given("blocks")) return;
     blocks_ = load_hexahedra(line_, line_.get<std::string>("blocks"));
     hex::io::write_hex_mesh(folder_ / "2-blocks.k", *blocks_);
@@ -283,9 +241,14 @@ void Chain::polycube_of_labels() {
     report_["corners"] = quads.report.corners;
     patches_ = std::move(made.patches);
     blocks_ = std::move(made.blocks);
-    hex::io::write_surface(folder_ / "2-polycube.k", hex::polycube_surface(quads.polycube));
-    hex::io::write_surface(folder_ / "2-patches.k", hex::to_soup(*patches_));
+    blocks_made_ = true;
+    write_polycube(quads.polycube);
     hex::io::write_hex_mesh(folder_ / "2-blocks.k", *blocks_);
+}
+
+void Chain::write_polycube(const hex::Polycube& quads) const {
+    hex::io::write_surface(folder_ / "2-polycube.k", hex::polycube_surface(quads));
+    hex::io::write_surface(folder_ / "2-patches.k", hex::to_soup(*patches_));
 }
 
 void Chain::polycube_of_voxels() {
@@ -298,6 +261,7 @@ void Chain::polycube_of_voxels() {
                          {"tries", result.report.tries},
                          {"repairs", result.report.repairs}};
     blocks_ = std::move(result.cells);
+    blocks_made_ = true;
     hex::io::write_hex_mesh(folder_ / "2-blocks.k", *blocks_);
 }
 
@@ -310,84 +274,29 @@ void Chain::map() {
     if (route_ == "voxel") {
         mapped_ = blocks();
     } else if (size_is_chosen()) {
-        map_as_fine_as_needed(first_target);
+        take_mapped(as_fine_as_needed());
     } else {
-        auto result = hex::map(patches(), blocks(), element_size(line_), line_.context());
-        line_.log(result.report.diagnostics);
-        mapped_ = std::move(result.mesh);
+        take_mapped({hex::map(patches(), blocks(), element_size(line_), line_.context())});
     }
     report_["blocks"] = blocks().cell_count();
-    report_quality(*mapped_);
+    report_quality(hex::summarize(*mapped_, line_.context()));
     hex::io::write_hex_mesh(folder_ / "3-map.vtk", *mapped_);
 }
 
-void Chain::map_as_fine_as_needed(double target) {
-    hex::MapOptions options = element_size(line_);
-    for (;; target *= target_growth) {
-        options.target_hexes = static_cast<std::size_t>(target);
-        hex::MapResult result;
-        try {
-            result = hex::map(patches(), blocks(), options, line_.context());
-        } catch (const hex::Error& error) {
-            if (error.kind() == hex::ErrorKind::cancelled) throw;
-            throw RouteClosed{error.what()};
-        }
-        const double apart = percent_apart(result.mesh);
-        line_.info(std::to_string(result.mesh.cell_count()) + " hexahedra are within " +
-                   std::to_string(apart) + " % of the diagonal of the surface");
-        const bool finest = target * target_growth > last_target;
-        if (finest && apart > hopeless_distance)
-            throw RouteClosed{"the mapped mesh stays " + std::to_string(apart) +
-                              " % of the diagonal off the surface"};
-        if (apart <= wished_distance || finest) {
-            line_.log(result.report.diagnostics);
-            mapped_ = std::move(result.mesh);
-            mapped_target_ = target;
-            return;
-        }
-    }
-}
-
 void Chain::improve() {
-    hex::HexMesh mesh = mapped_ ? std::move(*mapped_) : load_hexahedra(line_, folder_ / "3-map.vtk");
-    mapped_.reset();
-    Json steps = improve_mesh(mesh);
-    hex::QualitySummary summary = hex::summarize(mesh, line_.context());
-    if (route_ == "labelling") {
-        for (int meshes = 1; meshes < most_meshes && mapped_target_ > 0 && size_is_chosen(); ++meshes) {
-            if (summary.inverted == 0 && percent_apart(mesh) <= wished_distance) break;
-            line_.info("the improved mesh is inverted or too far from the surface; making a finer one");
-            try {
-                map_as_fine_as_needed(mapped_target_ * target_growth);
-            } catch (const RouteClosed&) {
-                break;  // what there is may still do
-            }
-            hex::HexMesh finer = *mapped_;
-            Json finer_steps = improve_mesh(finer);
-            const hex::QualitySummary finer_summary = hex::summarize(finer, line_.context());
-            if (finer_summary.inverted > summary.inverted) continue;
-            if (finer_summary.inverted == summary.inverted && percent_apart(finer) >= percent_apart(mesh))
-                continue;
-            hex::io::write_hex_mesh(folder_ / "3-map.vtk", *mapped_);
-            mesh = std::move(finer);
-            steps = std::move(finer_steps);
-            summary = finer_summary;
-        }
-        mapped_.reset();
-        if (summary.inverted > 0)
-            throw RouteClosed{std::to_string(summary.inverted) +
-                              " elements of the improved mesh are still inverted"};
+    if (!mapped_) mapped_ = load_hexahedra(line_, folder_ / "3-map.vtk");
+    const Candidate made = improve_and_consider();
+    if (is_searching()) {
+        if (size_is_chosen()) refine_while_wanted(made);
+        if (wants_more()) throw RouteClosed{"at best " + choice_.best()->description()};
     }
-    report_["improve"] = steps;
-    report_["surface_distance_percent"] = percent_apart(mesh);
-    report_quality(mesh);
-    hex::io::write_hex_mesh(folder_ / "4-improve.vtk", mesh);
-    improved_ = std::move(mesh);
-    if (summary.inverted > 0)
-        throw hex::Error(
-            hex::ErrorKind::no_result,
-            std::to_string(summary.inverted) + " elements of the improved mesh are still inverted",
-            (folder_ / "4-improve.vtk").string(), "mend the blocks, or try other --improve methods");
+    keep_best();
+    if (!choice_.best()->valid())
+        throw hex::Error(hex::ErrorKind::no_result,
+                         std::to_string(choice_.best()->quality.inverted) +
+                             " elements of the improved mesh are still inverted",
+                         (folder_ / "4-improve.vtk").string(),
+                         "mend the blocks, or try other --improve methods");
 }
 
 Json Chain::improve_mesh(hex::HexMesh& mesh) {
@@ -465,8 +374,7 @@ const hex::HexMesh& Chain::blocks() {
     return *blocks_;
 }
 
-void Chain::report_quality(const hex::HexMesh& mesh) {
-    const hex::QualitySummary summary = hex::summarize(mesh, line_.context());
+void Chain::report_quality(const hex::QualitySummary& summary) {
     report_["hexes"] = summary.cells;
     report_["min_scaled_jacobian"] = summary.min;
     report_["mean_scaled_jacobian"] = summary.mean;

@@ -3,7 +3,10 @@
 #pragma once
 
 #include "hexspline/command.h"
+#include "hexspline/mesh_choice.h"
 
+#include <hex/map/map.h>
+#include <hex/polycube/polycube.h>
 #include <hex/segment/segment.h>
 #include <hex/surface/mesh_types.h>
 #include <hex/volume/hex_mesh.h>
@@ -20,8 +23,10 @@ namespace cli {
 ///
 /// Three routes lead to blocks: `given` (a person's --segmentation and --blocks), `labelling` (the labels of
 /// stage segment become a polycube and its blocks) and `voxel` (the cells of a grid, pulled onto the
-/// surface). With --route auto, `voxel` is taken where `labelling` gives no mesh that is valid;
-/// `route_reason` in the report tells why.
+/// surface). On the route `labelling`, as long as something is left to wish for and MeshChoice allows it, the
+/// blocks are mapped with more hexahedra, and blocks are made from other labels. With --route auto, `voxel`
+/// is taken where no mesh made in this way is acceptable; of all meshes the best is kept. `route_reason` in
+/// the report tells why, and `tries` what was tried.
 class Chain {
   public:
     explicit Chain(const CommandLine& line);
@@ -30,19 +35,32 @@ class Chain {
     int run();
 
   private:
-    /// Thrown within the route `labelling`: it cannot end in a valid mesh.
+    enum : std::size_t { segment_stage, polycube_stage, map_stage, improve_stage, spline_stage };
+
+    /// Thrown within the route `labelling`: these labels give no mesh that leaves nothing to wish for.
     struct RouteClosed {
         std::string reason;
+    };
+    /// The blocks cut into hexahedra.
+    struct Mapped {
+        hex::MapResult result;
+        double target = 0.0;  ///< hexahedra asked for; 0: the size is the user's
+        double apart = 0.0;   ///< from the surface, in percent of the diagonal
     };
 
     void run_stage(std::size_t stage);
     void make_folder();
-    void choose_route(bool from_start);
+    void choose_route(std::size_t first);
+    /// What comes after labels that ended: other labels, the best mesh there is, or the route `voxel`.
+    /// Returns the last stage that is done.
+    std::size_t go_on_after(const std::string& reason);
     /// Labels the surface: SegmentOptions::attempt.
     void label(int attempt);
     /// Labels it otherwise than before. Returns false when there is nothing else to try.
     bool take_other_labels();
-    void take_voxel_route(const std::string& reason);
+    void take_voxel_route();
+    void write_labels() const;
+    void write_polycube(const hex::Polycube& quads) const;
 
     void segment();
     void polycube();
@@ -55,8 +73,24 @@ class Chain {
     void polycube_of_voxels();
     /// The number of hexahedra is left to the program.
     bool size_is_chosen() const;
-    /// Maps so many hexahedra, and more until they follow the surface.
-    void map_as_fine_as_needed(double target);
+    /// This run makes labels and blocks, and may make others.
+    bool is_searching() const;
+    Mapped mapped_to(double target);
+    /// The coarsest mesh that follows the surface.
+    Mapped as_fine_as_needed();
+    /// A finer mesh than the present one, that is nearer to the surface if it is the distance that the
+    /// improved one lacks. Returns false if there is none, or if it is too expensive.
+    bool take_finer_mesh(bool nearer);
+    /// Improves finer meshes of the same blocks while they may give what is wished for.
+    void refine_while_wanted(const Candidate& coarse);
+    void take_mapped(Mapped mapped);
+    /// Improves the mapped mesh and lets it compete with those there are. Returns what became of it, without
+    /// the meshes themselves.
+    Candidate improve_and_consider();
+    /// Whether the best mesh leaves something to wish for that another try may give.
+    bool wants_more() const;
+    /// Goes on with the best mesh.
+    void keep_best();
     /// Runs the methods of --improve, and tells what each did.
     Json improve_mesh(hex::HexMesh& mesh);
     /// Largest distance between a mesh and the surface, both ways, in percent of the diagonal.
@@ -67,20 +101,25 @@ class Chain {
     /// The surface with four-sided patches; on the route `voxel` the surface as it came in.
     const hex::TriangleMesh& patches();
     const hex::HexMesh& blocks();
-    void report_quality(const hex::HexMesh& mesh);
+    void report_quality(const hex::QualitySummary& summary);
 
     const CommandLine& line_;
     std::filesystem::path folder_;
     std::string route_ = "given";
     std::optional<hex::TriangleMesh> surface_;
     std::optional<hex::Segmentation> segmentation_;
+    std::optional<hex::Segmentation> first_labels_;
+    Json first_report_;  ///< as it was with the first labels
     std::vector<std::vector<int>> tried_labels_;
     int attempt_ = 0;
-    int late_failures_ = 0;  ///< improved meshes that were not valid
     std::optional<hex::TriangleMesh> patches_;
     std::optional<hex::HexMesh> blocks_;
     std::optional<hex::HexMesh> mapped_;
-    double mapped_target_ = 0;  ///< hexahedra that map_as_fine_as_needed ended with
+    double mapped_target_ = 0.0;
+    double mapped_apart_ = 0.0;
+    bool blocks_made_ = false;  ///< by this run, which so may make others
+    MeshChoice choice_;
+    bool newest_is_best_ = false;
     std::optional<hex::HexMesh> improved_;
     Json report_;
     Json seconds_;
