@@ -87,10 +87,10 @@ class Run(CommandTest):
         return report
 
     def test_a_bare_surface_gives_the_same_bytes_for_any_number_of_threads(self):
-        for route in ('labelling', 'voxel'):
+        for route, methods in (('labelling', 'auto'), ('voxel', 'snap,smooth')):
             for threads in (1, 2):
-                report = self.bare(BRACKET / 'bracket.stl', f'{route}{threads}', '--route', route, '--threads', threads,
-                                   '--target-hexes', 600)
+                report = self.bare(BRACKET / 'bracket.stl', f'{route}{threads}', '--route', route, '--improve', methods,
+                                   '--threads', threads, '--target-hexes', 300)
                 self.assertEqual(report['route'], route)
             one, two = self.folder / f'{route}1', self.folder / f'{route}2'
             self.assertEqual(sorted(path.name for path in one.iterdir()), sorted(path.name for path in two.iterdir()))
@@ -125,8 +125,8 @@ class Run(CommandTest):
                     self.run_program('check', self.folder / 'out' / '4-improve.vtk', '--json', 'check.json')
                     facts = json.loads((self.folder / 'check.json').read_text())
                     self.assertTrue(facts['boundary']['watertight'])
-                    # The void is left out, and both components are there.
-                    self.assertAlmostEqual(facts['metrics']['volume']['mean'] * facts['hexes'], volume, places=6)
+                    # The void is left out, and both components are there. (Sharp edges are met within 0.01 % of the diagonal.)
+                    self.assertAlmostEqual(facts['metrics']['volume']['mean'] * facts['hexes'], volume, delta=volume / 500)
 
     def test_what_is_missing_is_named(self):
         surface = BRACKET / 'bracket.stl'
