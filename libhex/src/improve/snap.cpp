@@ -28,11 +28,12 @@ constexpr int iterations_per_pull = 20;
 /// Share of the pull that also acts along the surface.
 constexpr double tangential_share = 0.02;
 /// What is off the surface by more than this share of the size is pulled harder, round by round by this
-/// factor, as long as the sum of squares falls below this share.
+/// factor, until the sum of squares has not fallen below this share of the least so many rounds in a row.
 constexpr double tolerated = 0.05;
 constexpr double harder = 2.0;
 constexpr int most_harder_pulls = 20;
 constexpr double worth_pulling = 0.9;
+constexpr int most_in_vain = 2;
 constexpr int rings_that_give_way = 3;
 /// A boundary vertex may go to its place on the surface if the scaled Jacobians around it stay above this,
 /// or do not fall.
@@ -156,14 +157,16 @@ class Snapper {
     /// Where the solid is thinner than the cells, their wished shape holds the boundary off the surface. So
     /// cells there may keep the shape that they have come to, and the pull grows.
     void pull_harder() {
-        double before = std::numeric_limits<double>::infinity();
+        double least = std::numeric_limits<double>::infinity();
         double strength = pulls.back();
+        int in_vain = 0;
         for (int round = 0; round < most_harder_pulls; ++round, strength *= harder) {
             aim();
             std::vector<char> held(mesh_.mesh().vertex_count(), 0);
             const double off = find_held_off(held);
-            if (off == 0.0 || off > worth_pulling * before) return;
-            before = off;
+            in_vain = off > worth_pulling * least ? in_vain + 1 : 0;
+            if (off == 0.0 || in_vain > most_in_vain) return;
+            least = std::min(least, off);
             give_way_around(std::move(held));
             pull(strength);
         }
