@@ -1,5 +1,4 @@
 // Broken files: one clear message with the place, never a crash, never a huge allocation.
-#include "support/meshes.h"
 #include "support/test_files.h"
 
 #include <hex/base/error.h>
@@ -10,7 +9,6 @@
 
 #include <array>
 #include <ostream>
-#include <random>
 
 namespace hex::io {
 namespace {
@@ -319,85 +317,6 @@ TEST(HexahedraThatAreNoMesh, AreRefusedWithTheFile) {
     for (int i = 0; i < 8; ++i) text += std::to_string(i) + " 0 0\n";
     test::write_text(folder / "a.vtk", text + "CELLS 1 9\n8 0 1 2 3 4 5 6 6\nCELL_TYPES 1\n12\n");
     EXPECT_EQ(message_of(folder / "a.vtk").find((folder / "a.vtk").string() + ": cell 0"), 0u);
-}
-
-/// Files of every format and encoding that we can make.
-std::vector<std::pair<std::string, std::string>> good_files() {
-    const TemporaryFolder folder;
-    std::vector<std::pair<std::string, std::string>> files;
-    const auto keep = [&](const std::string& extension) {
-        files.emplace_back(extension, test::read_text(folder / std::string("a").append(extension)));
-    };
-    for (const FormatInfo& info : formats()) {
-        if (!info.writes_surfaces) continue;
-        const std::string extension(info.extensions.front());
-        write_surface(folder / std::string("a").append(extension), test::box_surface(1, 2, 3));
-        keep(extension);
-        if (!info.writes_hexahedra) continue;
-        const HexMesh grid = test::grid(2, 1, 1);
-        write_hex_mesh(folder / std::string("a").append(extension), grid);
-        keep(extension);
-    }
-    return files;
-}
-
-/// Numbers of points, polygons and hexahedra.
-std::array<std::size_t, 3> counts(const MeshFile& file) {
-    if (const auto* surface = std::get_if<SurfaceFile>(&file))
-        return {surface->soup.points.size(), surface->soup.size(), 0};
-    const HexMesh& mesh = std::get<HexFile>(file).mesh;
-    return {mesh.vertex_count(), 0, mesh.cell_count()};
-}
-
-TEST(TruncatedFile, NeverCrashesAndNeverLosesElementsSilently) {
-    const TemporaryFolder folder;
-    for (const auto& [extension, text] : good_files()) {
-        // OBJ and Abaqus do not say how much there should be.
-        if (extension == ".obj" || extension == ".inp") continue;
-        const auto path = folder / std::string("t").append(extension);
-        test::write_text(path, text);
-        const auto whole = counts(read_mesh_file(path));
-        for (std::size_t size = 1; size < text.size(); size += 1 + size / 40) {
-            test::write_text(path, text.substr(0, size));
-            try {
-                EXPECT_EQ(counts(read_mesh_file(path)), whole)
-                    << extension << " cut to " << size << " of " << text.size();
-            } catch (const Error& error) {
-                EXPECT_EQ(exit_code(error.kind()), 3) << error.what();
-            }
-        }
-    }
-}
-
-TEST(DamagedFile, NeverCrashes) {
-    const TemporaryFolder folder;
-    std::mt19937 random(1);
-    for (const auto& [extension, text] : good_files()) {
-        const auto path = folder / std::string("d").append(extension);
-        for (int round = 0; round < 200; ++round) {
-            std::string damaged = text;
-            for (int change = 0; change < 1 + round % 4; ++change) {
-                const std::size_t at = random() % damaged.size();
-                switch (random() % 3) {
-                    case 0:
-                        damaged[at] = static_cast<char>(random());
-                        break;
-                    case 1:
-                        damaged.erase(at, random() % 20);
-                        break;
-                    default:
-                        damaged.insert(at, "9999999999");
-                }
-            }
-            if (damaged.empty()) continue;
-            test::write_text(path, damaged);
-            try {
-                read_mesh_file(path);
-            } catch (const Error& error) {
-                EXPECT_EQ(exit_code(error.kind()), 3) << error.what();
-            }
-        }
-    }
 }
 
 }  // namespace

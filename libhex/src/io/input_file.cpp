@@ -1,5 +1,7 @@
 #include "io/input_file.h"
 
+#include <hex/base/parallel.h>
+
 #include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -7,6 +9,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <vector>
 
 namespace hex::io {
 namespace {
@@ -20,6 +23,27 @@ struct Descriptor {
         if (number >= 0) ::close(number);
     }
 };
+
+constexpr std::size_t piece_bytes = std::size_t{4} << 20;
+
+struct Piece {
+    std::size_t size = 0;
+    int problem = 0;  ///< errno
+};
+
+/// As many of `wanted` bytes as there are from `start` on.
+Piece read_piece(int file, char* to, std::size_t start, std::size_t wanted) {
+    Piece piece;
+    while (piece.size < wanted) {
+        const ssize_t got =
+            ::pread(file, to + piece.size, wanted - piece.size, static_cast<off_t>(start + piece.size));
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) piece.problem = errno;
+        if (got <= 0) break;
+        piece.size += static_cast<std::size_t>(got);
+    }
+    return piece;
+}
 
 [[noreturn]] void fail(const std::string& name, const std::string& what, int error_number = 0) {
     const std::string reason = error_number == 0 ? "" : std::string(" (") + std::strerror(error_number) + ")";
@@ -40,13 +64,24 @@ InputFile::InputFile(const std::filesystem::path& path) : name_(path.string()) {
     if (status.st_size == 0) fail(name_, "the file is empty");
     const auto expected = static_cast<std::size_t>(status.st_size);
     bytes_ = std::make_unique_for_overwrite<char[]>(expected);
-    while (size_ < expected) {
-        const ssize_t got = ::read(file.number, bytes_.get() + size_, expected - size_);
-        if (got < 0 && errno == EINTR) continue;
-        if (got < 0) fail(name_, "cannot be read", errno);
-        if (got == 0) break;
-        size_ += static_cast<std::size_t>(got);
+    // Pieces of a large file side by side: most of the time goes into giving memory to the process. A file
+    // that is cut short meanwhile ends where the first piece does that is not full.
+    const std::size_t pieces = (expected + piece_bytes - 1) / piece_bytes;
+    std::vector<Piece> read(pieces);
+    parallel_for(
+        pieces,
+        [&](std::size_t i) {
+            const std::size_t start = i * piece_bytes;
+            read[i] =
+                read_piece(file.number, bytes_.get() + start, start, std::min(piece_bytes, expected - start));
+        },
+        1);
+    for (std::size_t i = 0; i < pieces; ++i) {
+        if (read[i].problem != 0) fail(name_, "cannot be read", read[i].problem);
+        size_ += read[i].size;
+        if (read[i].size < std::min(piece_bytes, expected - i * piece_bytes)) break;
     }
+    if (size_ == 0) fail(name_, "the file is empty");
 }
 
 InputFile::InputFile(std::string name, std::string_view bytes)

@@ -277,26 +277,28 @@ class LegacyVtkReader {
         if (!take_numbers(std::span(numbers))) return false;
         Rows rows;
         rows.offsets.reserve(count + 1);
-        rows.corners.reserve(size - count);
         const std::size_t points = data_.points().size();
-        std::size_t next = 0;
+        // The corners move up to where the sizes of the rows were.
+        std::size_t next = 0, kept = 0;
         for (std::size_t c = 0; c < count; ++c) {
             const std::size_t corners = next < size ? numbers[next++] : 0;
             bool good = corners >= 1 && corners <= size - next;
             for (std::size_t i = 0; good && i < corners; ++i) {
                 good = numbers[next] < points;
-                rows.corners.push_back(numbers[next++]);
+                numbers[kept++] = numbers[next++];
             }
             if (!good) {
                 scanner_.seek(start);
                 return false;
             }
-            rows.offsets.push_back(rows.corners.size());
+            rows.offsets.push_back(kept);
         }
         if (next != size) {
             scanner_.seek(start);
             return false;
         }
+        numbers.resize(kept);
+        rows.corners = std::move(numbers);
         result = std::move(rows);
         return true;
     }

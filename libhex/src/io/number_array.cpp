@@ -23,20 +23,6 @@ struct Piece {
     bool stopped = false;
 };
 
-bool parse(std::string_view word, double& value) {
-    const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), value);
-    if (problem == std::errc() && end == word.data() + word.size() && std::isfinite(value)) return true;
-    // Signs, numbers too small, and everything that is wrong.
-    const auto careful = parse_double(word);
-    value = careful.value_or(0.0);
-    return careful.has_value();
-}
-
-bool parse(std::string_view word, std::uint32_t& value) {
-    const auto [end, problem] = std::from_chars(word.data(), word.data() + word.size(), value);
-    return problem == std::errc() && end == word.data() + word.size();
-}
-
 std::size_t skip_blanks(std::string_view text, std::size_t position) {
     while (position < text.size() && is_blank(text[position])) ++position;
     return position;
@@ -45,6 +31,40 @@ std::size_t skip_blanks(std::string_view text, std::size_t position) {
 std::size_t skip_word(std::string_view text, std::size_t position) {
     while (position < text.size() && !is_blank(text[position])) ++position;
     return position;
+}
+
+bool at_word_end(std::string_view text, std::size_t position) {
+    return position == text.size() || is_blank(text[position]);
+}
+
+/// Reads the number that starts at `position` and moves behind it; false when there is none.
+bool take_number(std::string_view text, std::size_t& position, double& value) {
+    const char* const begin = text.data() + position;
+    const auto [end, problem] = std::from_chars(begin, text.data() + text.size(), value);
+    const std::size_t behind = position + static_cast<std::size_t>(end - begin);
+    if (problem == std::errc() && behind > position && at_word_end(text, behind) && std::isfinite(value)) {
+        position = behind;
+        return true;
+    }
+    // Signs, numbers too small, and everything that is wrong.
+    const std::size_t word_end = skip_word(text, position);
+    const auto careful = parse_double(text.substr(position, word_end - position));
+    value = careful.value_or(0.0);
+    position = word_end;
+    return careful.has_value();
+}
+
+/// At most eleven digits are looked at, which fit the wider number.
+bool take_number(std::string_view text, std::size_t& position, std::uint32_t& value) {
+    const std::size_t start = position;
+    std::uint64_t number = 0;
+    for (; position < text.size() && position - start <= 10; ++position) {
+        const unsigned digit = static_cast<unsigned char>(text[position]) - unsigned{'0'};
+        if (digit > 9) break;
+        number = 10 * number + digit;
+    }
+    value = static_cast<std::uint32_t>(number);
+    return position > start && number <= UINT32_MAX && at_word_end(text, position);
 }
 
 template <class Number>
@@ -56,14 +76,12 @@ void read_piece(std::string_view text, std::size_t first, std::size_t begin, std
     std::size_t position = begin;
     if (begin > first && !is_blank(text[begin - 1])) position = skip_word(text, position);
     for (position = skip_blanks(text, position); position < end; position = skip_blanks(text, position)) {
-        const std::size_t behind = skip_word(text, position);
         Number value{};
-        if (!parse(text.substr(position, behind - position), value)) {
+        if (!take_number(text, position, value)) {
             piece.stopped = true;
             return;
         }
         piece.numbers.push_back(value);
-        position = behind;
     }
 }
 

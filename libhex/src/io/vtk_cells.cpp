@@ -4,6 +4,7 @@
 
 #include <hex/base/error.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -67,6 +68,8 @@ class CellSorter {
     void run() {
         std::vector<std::int64_t> skipped;
         const bool with_parts = !parts_.empty();
+        data_.hexahedra.reserve(static_cast<std::size_t>(
+            std::count(cells_.types.begin(), cells_.types.end(), int{vtk_hexahedron})));
         for (std::size_t c = 0; c < cells_.types.size(); ++c) {
             const auto corners = std::span(cells_.corners)
                                      .subspan(cells_.offsets[c], cells_.offsets[c + 1] - cells_.offsets[c]);

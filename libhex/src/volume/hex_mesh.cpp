@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <cstdlib>
+#include <optional>
 #include <span>
 
 namespace hex {
@@ -30,23 +32,49 @@ std::string cells_text(std::initializer_list<std::uint32_t> half_faces) {
     return "cells " + list_ids(cells);
 }
 
-/// Serial scan in cell order, so that the first problem of the file is the one that is reported.
+/// True when some item of [0, count) is a problem. Which one is the first is then asked once more, in order:
+/// problems are rare.
+template <class IsProblem>
+bool any_problem(std::size_t count, const IsProblem& is_problem) {
+    std::atomic<bool> found = false;
+    parallel_for(
+        count,
+        [&](std::size_t i) {
+            if (is_problem(i)) found.store(true, std::memory_order_relaxed);
+        },
+        4096);
+    return found;
+}
+
+bool is_good_cell(const HexCell& cell, std::size_t vertex_count) {
+    bool good = true;
+    for (std::size_t i = 0; i < 8; ++i) {
+        good = good && cell[i].index() < vertex_count;
+        for (std::size_t j = 0; j < i; ++j) good = good && cell[i] != cell[j];
+    }
+    return good;
+}
+
+[[noreturn]] void throw_problem(const HexCell& cell, std::size_t c, std::size_t vertex_count) {
+    for (std::size_t i = 0; i < 8; ++i) {
+        const std::string use =
+            "cell " + std::to_string(c) + " uses vertex " + std::to_string(cell[i].value());
+        if (cell[i].index() >= vertex_count)
+            throw Error(ErrorKind::bad_input, use + " of " + std::to_string(vertex_count));
+        if (std::find(cell.begin(), cell.begin() + static_cast<std::ptrdiff_t>(i), cell[i]) !=
+            cell.begin() + static_cast<std::ptrdiff_t>(i))
+            throw Error(ErrorKind::bad_input, use + " twice");
+    }
+    std::abort();
+}
+
 void check_cells(const std::vector<HexCell>& cells, std::size_t vertex_count) {
     if (cells.size() > std::size_t{Id<int>::none_value} / 6)
         throw Error(ErrorKind::unsupported, "more hexahedra than 32-bit half-face ids can number");
-    for (std::size_t c = 0; c < cells.size(); ++c) {
-        for (std::size_t i = 0; i < 8; ++i) {
-            if (cells[c][i].index() >= vertex_count)
-                throw Error(ErrorKind::bad_input, "cell " + std::to_string(c) + " uses vertex " +
-                                                      std::to_string(cells[c][i].value()) + " of " +
-                                                      std::to_string(vertex_count));
-            for (std::size_t j = 0; j < i; ++j) {
-                if (cells[c][i] == cells[c][j])
-                    throw Error(ErrorKind::bad_input, "cell " + std::to_string(c) + " uses vertex " +
-                                                          std::to_string(cells[c][i].value()) + " twice");
-            }
-        }
-    }
+    if (!any_problem(cells.size(), [&](std::size_t c) { return !is_good_cell(cells[c], vertex_count); }))
+        return;
+    for (std::size_t c = 0; c < cells.size(); ++c)
+        if (!is_good_cell(cells[c], vertex_count)) throw_problem(cells[c], c, vertex_count);
 }
 
 /// The records of one face at the front of a sorted bucket.
@@ -56,31 +84,59 @@ std::span<const FaceRecord> first_face(std::span<const FaceRecord> sorted) {
     return sorted.first(count);
 }
 
+void sort_faces(std::span<FaceRecord> faces) {
+    std::sort(faces.begin(), faces.end(), [](const FaceRecord& a, const FaceRecord& b) {
+        const auto ka = a.key(), kb = b.key();
+        return ka != kb ? ka < kb : a.half_face < b.half_face;
+    });
+}
+
+void pair(const FaceRecord& a, const FaceRecord& b, std::vector<HalfFaceId>& twins) {
+    twins[a.half_face] = HalfFaceId(b.half_face);
+    twins[b.half_face] = HalfFaceId(a.half_face);
+}
+
 /// At most two half-faces, and two of opposite orientation.
 bool is_manifold(std::span<const FaceRecord> face) {
     return face.size() == 1 || (face.size() == 2 && face[0].rest[0] != face[1].rest[0]);
 }
 
-/// Sorts the half-faces of one bucket and pairs them; false when a face is not manifold.
+/// Pairs the half-faces of one bucket, each with the only other one of its face; false when a face is not
+/// manifold. A bucket holds few faces, so every pair of them is looked at; large ones are sorted.
 bool match_bucket(std::span<FaceRecord> bucket, std::vector<HalfFaceId>& twins) {
-    std::sort(bucket.begin(), bucket.end(), [](const FaceRecord& a, const FaceRecord& b) {
-        const auto ka = a.key(), kb = b.key();
-        return ka != kb ? ka < kb : a.half_face < b.half_face;
-    });
-    for (std::span<const FaceRecord> rest = bucket; !rest.empty();) {
-        const auto face = first_face(rest);
-        if (!is_manifold(face)) return false;
-        if (face.size() == 2) {
-            twins[face[0].half_face] = HalfFaceId(face[1].half_face);
-            twins[face[1].half_face] = HalfFaceId(face[0].half_face);
+    constexpr std::size_t few = 64;
+    if (bucket.size() > few) {
+        sort_faces(bucket);
+        for (std::span<const FaceRecord> rest = bucket; !rest.empty();) {
+            const auto face = first_face(rest);
+            if (!is_manifold(face)) return false;
+            if (face.size() == 2) pair(face[0], face[1], twins);
+            rest = rest.subspan(face.size());
         }
-        rest = rest.subspan(face.size());
+        return true;
+    }
+    std::uint64_t paired = 0;
+    for (std::size_t i = 0; i < bucket.size(); ++i) {
+        const FaceRecord& a = bucket[i];
+        for (std::size_t j = i + 1; j < bucket.size(); ++j) {
+            const FaceRecord& b = bucket[j];
+            if (a.rest[1] != b.rest[1]) continue;
+            const bool opposed = a.rest[0] == b.rest[2] && a.rest[2] == b.rest[0];
+            const bool alike = a.rest[0] == b.rest[0] && a.rest[2] == b.rest[2];
+            if (!opposed && !alike) continue;
+            const std::uint64_t both = std::uint64_t{1} << i | std::uint64_t{1} << j;
+            if (alike || (paired & both) != 0) return false;
+            paired |= both;
+            pair(a, b, twins);
+        }
     }
     return true;
 }
 
-/// Throws for the first face of a sorted bucket that is not manifold.
-void throw_problem(std::span<const FaceRecord> sorted) {
+/// Throws for the first face of a bucket that is not manifold.
+void throw_problem(std::span<FaceRecord> bucket) {
+    sort_faces(bucket);
+    std::span<const FaceRecord> sorted = bucket;
     auto face = first_face(sorted);
     while (is_manifold(face)) {
         sorted = sorted.subspan(face.size());
@@ -110,18 +166,26 @@ std::vector<HalfFaceId> find_twins(const std::vector<HexCell>& cells, std::size_
     };
 
     // Bucket half-faces by their smallest vertex; a bucket is small, so matching inside it is a short search.
+    // The order within a bucket depends on the threads, what is made of it does not.
     std::vector<std::uint32_t> offsets(vertex_count + 1, 0);
-    for (std::size_t h = 0; h < count; ++h) ++offsets[corner_of(h, smallest(h)) + 1];
+    const auto take = [](std::uint32_t& counter) {
+        return std::atomic_ref(counter).fetch_add(1, std::memory_order_relaxed);
+    };
+    parallel_for(
+        count, [&](std::size_t h) { take(offsets[corner_of(h, smallest(h)) + 1]); }, 6144);
     for (std::size_t v = 0; v < vertex_count; ++v) offsets[v + 1] += offsets[v];
     std::vector<FaceRecord> records(count);
     {
         std::vector<std::uint32_t> next(offsets.begin(), offsets.end() - 1);
-        for (std::size_t h = 0; h < count; ++h) {
-            const std::size_t first = smallest(h);
-            FaceRecord record{{}, static_cast<std::uint32_t>(h)};
-            for (std::size_t i = 0; i < 3; ++i) record.rest[i] = corner_of(h, (first + 1 + i) % 4);
-            records[next[corner_of(h, first)]++] = record;
-        }
+        parallel_for(
+            count,
+            [&](std::size_t h) {
+                const std::size_t first = smallest(h);
+                FaceRecord record{{}, static_cast<std::uint32_t>(h)};
+                for (std::size_t i = 0; i < 3; ++i) record.rest[i] = corner_of(h, (first + 1 + i) % 4);
+                records[take(next[corner_of(h, first)])] = record;
+            },
+            6144);
     }
 
     std::vector<HalfFaceId> twins(count);
@@ -139,23 +203,31 @@ std::vector<HalfFaceId> find_twins(const std::vector<HexCell>& cells, std::size_
     return twins;
 }
 
+/// The cell after `c`, if there is one, that is glued to it on two opposite sides and has the same eight
+/// vertices.
+std::optional<std::size_t> repetition_of(std::size_t c, const std::vector<HexCell>& cells,
+                                         const std::vector<HalfFaceId>& twins) {
+    for (std::size_t f = 0; f < 6; ++f) {
+        const HalfFaceId t = twins[6 * c + f];
+        if (!t.valid() || t.index() / 6 <= c) continue;
+        const HalfFaceId opposite = twins[6 * c + static_cast<std::size_t>(hexahedron::opposite_face[f])];
+        if (!opposite.valid() || opposite.index() / 6 != t.index() / 6) continue;
+        HexCell a = cells[c], b = cells[t.index() / 6];
+        std::sort(a.begin(), a.end());
+        std::sort(b.begin(), b.end());
+        if (a == b) return t.index() / 6;
+    }
+    return std::nullopt;
+}
+
 /// Two cells on the same eight vertices, also when glued to each other consistently.
 void check_repeated_cells(const std::vector<HexCell>& cells, const std::vector<HalfFaceId>& twins) {
+    if (!any_problem(cells.size(), [&](std::size_t c) { return repetition_of(c, cells, twins).has_value(); }))
+        return;
     for (std::size_t c = 0; c < cells.size(); ++c) {
-        for (std::size_t f = 0; f < 6; ++f) {
-            const HalfFaceId t = twins[6 * c + f];
-            if (!t.valid() || t.index() / 6 <= c) continue;
-            const HalfFaceId opposite = twins[6 * c + static_cast<std::size_t>(hexahedron::opposite_face[f])];
-            if (opposite.valid() && opposite.index() / 6 == t.index() / 6) {
-                HexCell a = cells[c], b = cells[t.index() / 6];
-                std::sort(a.begin(), a.end());
-                std::sort(b.begin(), b.end());
-                if (a == b)
-                    throw Error(ErrorKind::bad_input, "two hexahedra have the same eight vertices: cells " +
-                                                          std::to_string(c) + ", " +
-                                                          std::to_string(t.index() / 6));
-            }
-        }
+        if (const auto other = repetition_of(c, cells, twins))
+            throw Error(ErrorKind::bad_input, "two hexahedra have the same eight vertices: cells " +
+                                                  std::to_string(c) + ", " + std::to_string(*other));
     }
 }
 
