@@ -45,6 +45,42 @@ std::vector<BoundaryPlace> boundary_grid(std::size_t faces, int n) {
     return places;
 }
 
+std::vector<std::array<BoundaryPlace, 2>> boundary_creases(const BezierSpline& spline,
+                                                           const std::vector<BoundaryFace>& faces) {
+    static constexpr std::array<std::array<std::size_t, 2>, 4> sides = {{{0, 3}, {3, 15}, {15, 12}, {12, 0}}};
+    struct Side {
+        std::array<std::uint32_t, 2> ends;  ///< Bezier points, ascending
+        std::uint32_t face;
+        std::uint8_t side;
+    };
+    std::vector<Side> all;
+    all.reserve(4 * faces.size());
+    for (std::uint32_t f = 0; f < faces.size(); ++f) {
+        const auto points = face_points(faces[f].face);
+        const auto& element = spline.elements[faces[f].element];
+        for (std::uint8_t k = 0; k < 4; ++k) {
+            const std::uint32_t a = element[points[sides[k][0]]], b = element[points[sides[k][1]]];
+            all.push_back({{std::min(a, b), std::max(a, b)}, f, k});
+        }
+    }
+    std::sort(all.begin(), all.end(), [](const Side& a, const Side& b) {
+        return a.ends != b.ends ? a.ends < b.ends : a.face < b.face;
+    });
+    const auto patch = [&](const Side& side) {
+        return spline.boundary_patch[faces[side.face].element][faces[side.face].face];
+    };
+    const auto place = [](const Side& side, std::size_t end) {
+        const std::size_t p = sides[side.side][end];
+        return BoundaryPlace{side.face, {p % 4 == 3 ? 1.0 : 0.0, p / 4 == 3 ? 1.0 : 0.0}};
+    };
+    std::vector<std::array<BoundaryPlace, 2>> creases;
+    for (std::size_t i = 0; i + 1 < all.size(); ++i) {
+        if (all[i].ends == all[i + 1].ends && patch(all[i]) != patch(all[i + 1]))
+            creases.push_back({place(all[i], 0), place(all[i], 1)});
+    }
+    return creases;
+}
+
 std::vector<std::array<std::uint32_t, 3>> SampledBoundary::triangulate(std::size_t faces, int n) {
     std::vector<std::array<std::uint32_t, 3>> triangles;
     const auto side = static_cast<std::uint32_t>(n);
@@ -75,9 +111,9 @@ SampledBoundary::SampledBoundary(std::vector<BoundaryPlace> grid, int n, std::sp
       triangles_(triangulate(grid_.size() / static_cast<std::size_t>(n * n), n)),
       search_(corners_of(triangles_, points)) {}
 
-BoundaryPlace SampledBoundary::closest(const Vec3& p, Vec3& point) const {
-    const auto answer = search_(p);
-    point = answer.point;
+SampledBoundary::Answer SampledBoundary::closest(const Vec3& p, std::uint32_t hint) const {
+    const auto answer = search_(p, hint);
+    const Vec3& point = answer.point;
     const auto& [a, b, c] = search_.triangle(answer.triangle);
     // Barycentric coordinates of the answer, by areas.
     const Vec3 normal = (b - a).cross(c - a);
@@ -90,7 +126,7 @@ BoundaryPlace SampledBoundary::closest(const Vec3& p, Vec3& point) const {
         place.st[x] = std::clamp((1.0 - wb - wc) * grid_[corners[0]].st[x] + wb * grid_[corners[1]].st[x] +
                                      wc * grid_[corners[2]].st[x],
                                  0.0, 1.0);
-    return place;
+    return {place, point, answer.triangle};
 }
 
 }  // namespace spline

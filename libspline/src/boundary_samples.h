@@ -34,12 +34,22 @@ SparseRows boundary_rows(const BezierSpline& spline, const std::vector<BoundaryF
 /// `n` x `n` places of every face, from edge to edge.
 std::vector<BoundaryPlace> boundary_grid(std::size_t faces, int n);
 
+/// Where boundary faces of different patches meet: two places an edge, its ends, from one of the faces.
+std::vector<std::array<BoundaryPlace, 2>> boundary_creases(const BezierSpline& spline,
+                                                           const std::vector<BoundaryFace>& faces);
+
 /// The boundary as triangles, (n - 1)^2 pairs a face over the points of boundary_grid.
 class SampledBoundary {
   public:
     SampledBoundary(std::vector<BoundaryPlace> grid, int n, std::span<const hex::Vec3> points);
     /// The place whose point is closest to p, as far as the triangles tell.
-    BoundaryPlace closest(const hex::Vec3& p, hex::Vec3& point) const;
+    struct Answer {
+        BoundaryPlace place;
+        hex::Vec3 point;
+        std::uint32_t triangle;
+    };
+    /// The search starts from triangle `hint`.
+    Answer closest(const hex::Vec3& p, std::uint32_t hint) const;
 
   private:
     static std::vector<std::array<std::uint32_t, 3>> triangulate(std::size_t faces, int n);

@@ -68,6 +68,14 @@ SparseRows build_rows(std::size_t count, const Make& make) {
     return rows;
 }
 
+/// Adds rows at the end.
+inline void append(SparseRows& rows, const SparseRows& more) {
+    const std::size_t offset = rows.columns.size();
+    rows.columns.insert(rows.columns.end(), more.columns.begin(), more.columns.end());
+    rows.values.insert(rows.values.end(), more.values.begin(), more.values.end());
+    for (std::size_t i = 1; i < more.offsets.size(); ++i) rows.offsets.push_back(offset + more.offsets[i]);
+}
+
 /// Sum of the row's coefficients times points.
 inline hex::Vec3 combine(SparseRow row, std::span<const hex::Vec3> points) {
     hex::Vec3 sum = hex::Vec3::Zero();

@@ -110,13 +110,6 @@ void drop_negligible(std::span<const RealRowSum::Term> terms, RealRowSum& kept) 
     }
 }
 
-void append(SparseRows& rows, const SparseRows& more) {
-    const std::size_t offset = rows.columns.size();
-    rows.columns.insert(rows.columns.end(), more.columns.begin(), more.columns.end());
-    rows.values.insert(rows.values.end(), more.values.begin(), more.values.end());
-    for (std::size_t i = 1; i < more.offsets.size(); ++i) rows.offsets.push_back(offset + more.offsets[i]);
-}
-
 /// Adds the active elements of a level: their Bezier points, each once, with the rows of M T.
 void extract(const HierarchyLevel& level, std::size_t number, const SparseRows* truncation,
              BezierSpline& spline) {

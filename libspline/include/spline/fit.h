@@ -20,8 +20,8 @@ struct FitDistance {
 };
 
 struct FitOptions {
-    int rounds = 15;         ///< closest points are looked up anew in each, >= 1
-    double fairness = 1e-4;  ///< weight of differences of moves against distances, > 0
+    int rounds = 16;         ///< closest points are looked up anew in each, >= 1
+    double fairness = 1e-5;  ///< weight of differences of moves against distances, > 0
     JacobianOptions jacobian;
 };
 

@@ -1,5 +1,5 @@
 /// \file closest_point.h
-/// Closest points on triangles, for stages outside this library that must not know CGAL.
+/// Closest points on triangles and segments, for stages outside this library that must not know CGAL.
 #pragma once
 
 #include <hex/base/linear_algebra.h>
@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -28,9 +29,32 @@ class ClosestPoint {
         Vec3 point;
         std::uint32_t triangle = 0;
     };
-    Answer operator()(const Vec3& p) const;
+    /// The search starts from triangle `hint`: the nearer it is, the faster. Of several triangles that are
+    /// equally close the answer may depend on it.
+    Answer operator()(const Vec3& p, std::uint32_t hint = 0) const;
 
     const std::array<Vec3, 3>& triangle(std::uint32_t number) const;
+
+  private:
+    struct State;
+    std::unique_ptr<State> state_;
+};
+
+/// A search tree over segments. Queries are thread-safe.
+class ClosestOnSegments {
+  public:
+    /// Segments without length are left out of the search but keep their number.
+    explicit ClosestOnSegments(std::span<const std::array<Vec3, 2>> segments);
+    ~ClosestOnSegments();
+    ClosestOnSegments(const ClosestOnSegments&) = delete;
+    ClosestOnSegments& operator=(const ClosestOnSegments&) = delete;
+
+    struct Answer {
+        Vec3 point;
+        std::uint32_t segment = 0;
+    };
+    /// None when no segment is nearer than `radius`.
+    std::optional<Answer> operator()(const Vec3& p, double radius) const;
 
   private:
     struct State;

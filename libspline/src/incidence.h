@@ -1,0 +1,27 @@
+/// \file incidence.h
+/// Which control points shape an element, and which elements a control point shapes.
+#pragma once
+
+#include <spline/bezier.h>
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace spline {
+
+/// Elements in which each control point is used.
+struct Incidence {
+    std::vector<std::size_t> offsets;
+    std::vector<std::uint32_t> elements;
+
+    explicit Incidence(const BezierSpline& spline);
+    std::span<const std::uint32_t> operator[](std::uint32_t function) const {
+        return {elements.data() + offsets[function], offsets[function + 1] - offsets[function]};
+    }
+
+    /// The control points of an element, ascending.
+    static std::vector<std::uint32_t> of_element(const BezierSpline& spline, std::size_t e);
+};
+
+}  // namespace spline
