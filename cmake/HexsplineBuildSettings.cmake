@@ -32,3 +32,12 @@ if(HEXSPLINE_SANITIZE)
                         -Wno-maybe-uninitialized)
     add_link_options(-fsanitize=${sanitizers})
 endif()
+if(HEXSPLINE_COVERAGE)
+    # Of the libraries: what the tests run of libhex and libspline. Reported by the target `coverage` after the tests.
+    add_compile_options(--coverage -fprofile-update=atomic)
+    add_link_options(--coverage)
+    find_program(HEXSPLINE_GCOVR gcovr REQUIRED)
+    add_custom_target(coverage COMMAND ${HEXSPLINE_GCOVR} --root "${PROJECT_SOURCE_DIR}" --filter "${PROJECT_SOURCE_DIR}/lib(hex|spline)/"
+                                       --exclude-throw-branches --print-summary --sort-percentage
+                                       --html "${PROJECT_BINARY_DIR}/coverage.html" "${PROJECT_BINARY_DIR}" VERBATIM)
+endif()

@@ -38,7 +38,7 @@ struct ImproveOptions {
     /// sharp curve (dihedral angle by `feature_cosine`) or corner of it that it belongs to; none: they move
     /// tangentially only, and so drift a little.
     /// untangle, auto: the same; none: they move on the boundary of the input, whose sharp curves are found
-    /// by `feature_cosine`, or given by FeatureSource::list (FeatureSource::none and ::angle make no
+    /// by `feature_cosine`, or given by FeatureSource::list (FeatureSource::none and angle make no
     /// difference).
     const TriangleMesh* surface = nullptr;
     /// untangle, auto: how far boundary vertices may leave the surface, in percent of its diagonal, >= 0. It

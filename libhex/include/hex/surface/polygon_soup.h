@@ -12,8 +12,8 @@
 
 namespace hex {
 
-/// Points and polygons with part ids. Polygon f has the corners `corners[offsets[f]] .. corners[offsets[f+1]
-/// - 1]`, counter-clockwise seen from outside. All corner indices are < points.size().
+/// Points and polygons with part ids. Polygon f has the corners `corners[i]` for i in [`offsets[f]`,
+/// `offsets[f + 1]`), counter-clockwise seen from outside. All corner indices are < points.size().
 struct PolygonSoup {
     std::vector<Vec3> points;
     std::vector<std::uint32_t> corners;
