@@ -3,6 +3,8 @@
 
     formats_test.py HEXSPLINE DATA
 """
+import shutil
+import subprocess
 import unittest
 
 from program import ROD, CommandTest
@@ -13,7 +15,7 @@ try:
 except ImportError:
     meshio = None
 
-HEX = ('.k', '.vtk', '.vtu', '.mesh', '.mfem', '.inp', '.msh', '.ovm')
+HEX = ('.k', '.vtk', '.vtu', '.mesh', '.mfem', '.inp', '.msh', '.msh2', '.ovm')
 
 ABAQUS = '''*HEADING
  two cubes
@@ -70,7 +72,8 @@ class Formats(CommandTest):
     def test_names_of_parts_survive(self):
         (self.folder / 'part.inp').write_text(ABAQUS)
         self.run_program('convert', 'part.inp', '-o', 'part.msh')
-        self.run_program('convert', 'part.msh', '-o', 'again.inp')
+        self.run_program('convert', 'part.msh', '-o', 'part.msh2')
+        self.run_program('convert', 'part.msh2', '-o', 'again.inp')
         text = (self.folder / 'again.inp').read_text()
         self.assertIn('*ELSET, ELSET=lower\n1\n', text)
         self.assertIn('*ELSET, ELSET=Upper\n2\n', text)
@@ -95,9 +98,9 @@ class Formats(CommandTest):
         cells = expected.cells_dict['hexahedron']
         parts = np.ravel(expected.cell_data['part_id'][0])
         self.assertGreater(len(set(parts)), 1)
-        for name in ('b.inp', 'b.msh'):
+        for name in ('b.inp', 'b.msh', 'b.msh2'):
             self.run_program('convert', 'a.vtk', '-o', name)
-            mesh = meshio.read(self.folder / name)
+            mesh = meshio.read(self.folder / name, file_format='abaqus' if name == 'b.inp' else 'gmsh')
             self.assertTrue((mesh.points == expected.points).all(), name)
             if name == 'b.inp':
                 self.assertTrue((mesh.cells_dict['hexahedron'] == cells).all(), name)
@@ -105,8 +108,8 @@ class Formats(CommandTest):
                     members = mesh.cell_sets[f'PART_{part}'][0]
                     self.assertEqual(list(members), list(np.flatnonzero(parts == part)))
             else:
-                # Part by part.
-                order = np.argsort(parts, kind='stable')
+                # Part by part in version 4.1.
+                order = np.argsort(parts, kind='stable') if name == 'b.msh' else np.arange(len(parts))
                 found = np.concatenate([block.data for block in mesh.cells])
                 self.assertTrue((found == cells[order]).all(), name)
                 self.assertTrue((np.concatenate(mesh.cell_data['gmsh:physical']) == parts[order]).all(), name)
@@ -119,11 +122,34 @@ class Formats(CommandTest):
         meshio.write(self.folder / 'm.inp', bare, file_format='abaqus')
         meshio.write(self.folder / 'm2.msh', bare, file_format='gmsh22', binary=False)
         meshio.write(self.folder / 'm4.msh', bare, file_format='gmsh', binary=False)
-        for name in ('m.inp', 'm2.msh', 'm4.msh'):
+        meshio.write(self.folder / 'b2.msh', bare, file_format='gmsh22', binary=True)
+        meshio.write(self.folder / 'b4.msh', bare, file_format='gmsh', binary=True)
+        for name in ('m.inp', 'm2.msh', 'm4.msh', 'b2.msh', 'b4.msh'):
             self.run_program('convert', name, '-o', 'back.vtu')
             back = meshio.read(self.folder / 'back.vtu')
             self.assertTrue((back.cells_dict['hexahedron'] == mesh.cells_dict['hexahedron']).all(), name)
             self.assertLess(abs(back.points - mesh.points).max(), 1e-12, name)
+
+    @unittest.skipIf(shutil.which('gmsh') is None, 'no gmsh')
+    def test_gmsh_reads_what_we_write_and_we_read_what_it_writes(self):
+        (self.folder / 'part.inp').write_text(ABAQUS)
+        self.run_program('convert', 'part.inp', '-o', 'part.vtk')
+        for ours in ('part.msh', 'part.msh2'):
+            self.run_program('convert', 'part.inp', '-o', ours)
+            for version in ('msh22', 'msh41'):
+                for encoding in ([], ['-bin']):
+                    with self.subTest(file=ours, version=version, encoding=encoding):
+                        theirs = self.folder / 'theirs.msh'
+                        done = subprocess.run(['gmsh', ours, '-save', '-format', version, *encoding, '-o', theirs.name], cwd=self.folder,
+                                              stdin=subprocess.DEVNULL, capture_output=True, text=True)
+                        self.assertEqual(done.returncode, 0, done.stdout)
+                        self.assertNotIn('Error', done.stdout + done.stderr)
+                        self.assertIn(b'Upper', theirs.read_bytes())
+                        self.run_program('convert', theirs.name, '-o', 'back.vtk')
+                        self.assertEqual(self.vtk_text('part.vtk'), self.vtk_text('back.vtk'))
+                        self.run_program('convert', theirs.name, '-o', 'back.inp')
+                        self.assertIn('ELSET=lower', (self.folder / 'back.inp').read_text())
+                        theirs.unlink()
 
     def test_mfem_and_open_volume_mesh_say_what_their_formats_demand(self):
         (self.folder / 'part.inp').write_text(ABAQUS)

@@ -176,7 +176,17 @@ const std::vector<Malformed> cases = {
     // Gmsh
     {"msh_header", ".msh", "$Nodes\n", ":1", "$MeshFormat"},
     {"msh_version", ".msh", "$MeshFormat\n3.0 0 8\n", ":2", "'3.0'", ErrorKind::unsupported},
-    {"msh_binary", ".msh", "$MeshFormat\n2.2 1 8\n", ":2", "binary", ErrorKind::unsupported},
+    {"msh_type", ".msh", "$MeshFormat\n2.2 7 8\n", ":2", "file type"},
+    {"msh_binary_single", ".msh", "$MeshFormat\n2.2 1 4\n", ":2", "of 4 bytes", ErrorKind::unsupported},
+    {"msh_binary_order", ".msh", "$MeshFormat\n2.2 1 8\n" + le32(2) + "\n$EndMeshFormat\n", ":byte",
+     "byte order"},
+    {"msh_binary_cut_off", ".msh",
+     "$MeshFormat\n2.2 1 8\n" + le32(1) + "\n$EndMeshFormat\n$Nodes\n1\n" + le32(1), ":byte",
+     "a coordinate should be"},
+    {"msh_binary_huge", ".msh",
+     "$MeshFormat\n4.1 1 8\n" + le32(1) + "\n$EndMeshFormat\n$Nodes\n" + le32(9) + le32(9) + le32(1) +
+         le32(0),
+     ":byte", "cannot hold"},
     {"msh_huge", ".msh", msh2 + "$Nodes\n999999999999\n1 0 0 0\n$EndNodes\n", ":5", "more than the rest"},
     {"msh_negative_tag", ".msh", msh2 + "$Nodes\n1\n-4 0 0 0\n$EndNodes\n", ":6", "positive"},
     {"msh_node_twice", ".msh", msh2 + "$Nodes\n2\n2 0 0 0\n2 0 0 1\n$EndNodes\n", ":8", "defined twice"},

@@ -125,7 +125,7 @@ TEST_P(SurfaceRoundTrip, KeepsPolygonsOrRefusesThem) {
 
 INSTANTIATE_TEST_SUITE_P(Formats, SurfaceRoundTrip,
                          testing::Values(".k", ".key", ".vtk", ".vtu", ".mesh", ".mfem", ".inp", ".msh",
-                                         ".ovm", ".stl", ".obj", ".off", ".ply"),
+                                         ".msh2", ".ovm", ".stl", ".obj", ".off", ".ply"),
                          [](const auto& instance) { return instance.param.substr(1); });
 
 class HexRoundTrip : public testing::TestWithParam<std::string> {};
@@ -159,7 +159,8 @@ TEST_P(HexRoundTrip, KeepsVerticesThatNoCellUses) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, HexRoundTrip,
-                         testing::Values(".k", ".key", ".vtk", ".vtu", ".mesh", ".mfem", ".inp", ".msh"),
+                         testing::Values(".k", ".key", ".vtk", ".vtu", ".mesh", ".mfem", ".inp", ".msh",
+                                         ".msh2"),
                          [](const auto& instance) { return instance.param.substr(1); });
 
 TEST(OpenVolumeMesh, KeepsHexahedraThoughTheirCornersMayStartElsewhere) {
@@ -218,7 +219,7 @@ TEST(Quadrilaterals, SurviveInEveryFormatForThem) {
     soup.add_polygon(std::array<std::uint32_t, 4>{0, 1, 2, 3}, 5);
     soup.add_polygon(std::array<std::uint32_t, 3>{1, 4, 2}, 6);
     for (const std::string extension :
-         {".k", ".vtk", ".vtu", ".mfem", ".inp", ".msh", ".ovm", ".obj", ".ply"}) {
+         {".k", ".vtk", ".vtu", ".mfem", ".inp", ".msh", ".msh2", ".ovm", ".obj", ".ply"}) {
         write_surface(file(folder, "q", extension), soup);
         const auto back = read_surface(file(folder, "q", extension)).soup;
         EXPECT_EQ(back.corners, soup.corners) << extension;
@@ -242,7 +243,8 @@ TEST(Dispatch, TakesExtensionsInAnyCase) {
 
 TEST(Dispatch, TellsWhatAFileHolds) {
     const TemporaryFolder folder;
-    for (const std::string extension : {".k", ".vtk", ".vtu", ".mesh", ".mfem", ".inp", ".msh", ".ovm"}) {
+    for (const std::string extension :
+         {".k", ".vtk", ".vtu", ".mesh", ".mfem", ".inp", ".msh", ".msh2", ".ovm"}) {
         write_surface(file(folder, "s", extension), awkward_surface());
         write_hex_mesh(file(folder, "h", extension), awkward_hexahedra());
         EXPECT_TRUE(std::holds_alternative<SurfaceFile>(read_mesh_file(file(folder, "s", extension))))
@@ -271,7 +273,8 @@ TEST(Dispatch, FormatTableMatchesWhatReadersAndWritersDo) {
             }
         }
     }
-    EXPECT_EQ(extensions_of(&FormatInfo::writes_hexahedra), ".k .key .vtk .vtu .mesh .mfem .inp .msh .ovm");
+    EXPECT_EQ(extensions_of(&FormatInfo::writes_hexahedra),
+              ".k .key .vtk .vtu .mesh .mfem .inp .msh .msh2 .ovm");
 }
 
 TEST(Fields, AreWrittenWhereTheyCanBeAndRefusedElsewhere) {

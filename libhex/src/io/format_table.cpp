@@ -70,6 +70,10 @@ const std::vector<Format>& table() {
              read_gmsh,
              write_gmsh_surface,
              write_gmsh_hexahedra},
+            {{"Gmsh 2.2", {".msh2"}, true, true, true, true, true, true, 4, false, "text, exact"},
+             read_gmsh,
+             write_gmsh_2_surface,
+             write_gmsh_2_hexahedra},
             {{"OpenVolumeMesh", {".ovm"}, true, true, true, true, true, false, 0, false, "text, exact"},
              read_open_volume_mesh,
              without_names<write_open_volume_mesh_surface>,
@@ -249,7 +253,8 @@ std::string extensions_of(bool FormatInfo::*flag) {
             list += extension;
         }
     }
-    if (flag == &FormatInfo::reads_surfaces || flag == &FormatInfo::reads_hexahedra) list += added_extensions();
+    if (flag == &FormatInfo::reads_surfaces || flag == &FormatInfo::reads_hexahedra)
+        list += added_extensions();
     return list;
 }
 

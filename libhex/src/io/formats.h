@@ -6,9 +6,9 @@
 #pragma once
 
 #include "io/input_file.h"
-#include <hex/io/mesh_data.h>
 
 #include <hex/io/hex_file.h>
+#include <hex/io/mesh_data.h>
 #include <hex/io/output_file.h>
 
 namespace hex::io {
@@ -48,6 +48,8 @@ void write_abaqus_hexahedra(OutputFile& out, const HexMesh& mesh, const Fields& 
 MeshData read_gmsh(const InputFile& file);
 void write_gmsh_surface(OutputFile& out, const PolygonSoup& soup, const PartNames& names);
 void write_gmsh_hexahedra(OutputFile& out, const HexMesh& mesh, const Fields& fields);
+void write_gmsh_2_surface(OutputFile& out, const PolygonSoup& soup, const PartNames& names);
+void write_gmsh_2_hexahedra(OutputFile& out, const HexMesh& mesh, const Fields& fields);
 
 MeshData read_mfem(const InputFile& file);
 void write_mfem_surface(OutputFile& out, const PolygonSoup& soup);

@@ -1,8 +1,8 @@
-// Gmsh meshes (.msh), versions 2.2 and 4.1, ASCII: triangles, quadrilaterals, hexahedra; physical groups are
-// parts.
+// Gmsh meshes (.msh, .msh2), versions 2.2 and 4.1, ASCII and binary: triangles, quadrilaterals, hexahedra;
+// physical groups are parts.
 #include "io/formats.h"
+#include "io/gmsh_numbers.h"
 #include "io/id_map.h"
-#include "io/text_scanner.h"
 
 #include <hex/base/error.h>
 
@@ -46,7 +46,7 @@ struct Element {
 
 class GmshReader {
   public:
-    explicit GmshReader(const InputFile& file) : scanner_(file) {}
+    explicit GmshReader(const InputFile& file) : numbers_(file), scanner_(numbers_.text()) {}
 
     MeshData read() {
         if (scanner_.word("$MeshFormat") != "$MeshFormat")
@@ -65,9 +65,15 @@ class GmshReader {
             scanner_.unsupported("Gmsh format " + in_quotes(version) + " is not supported",
                                  "2.2 and 4.1 can be read");
         new_layout_ = version == "4.1";
-        if (scanner_.integer("the file type") != 0)
-            scanner_.unsupported("binary Gmsh files are not supported", "save as ASCII");
-        scanner_.integer("the size of a number");
+        const long long type = scanner_.integer("the file type");
+        if (type != 0 && type != 1)
+            scanner_.fail("the file type should be 0 or 1, not " + std::to_string(type));
+        const long long size = scanner_.integer("the size of a number");
+        if (type == 1) {
+            if (size != 8)
+                scanner_.unsupported("binary numbers of " + std::to_string(size) + " bytes", "8 can be read");
+            numbers_.start_binary(new_layout_);
+        }
         end("$EndMeshFormat");
     }
 
@@ -109,27 +115,28 @@ class GmshReader {
 
     /// Only the physical groups of surfaces and volumes are kept.
     void entities() {
+        numbers_.next_line();
         std::array<std::size_t, 4> counts{};
-        for (auto& count : counts) count = scanner_.count("the number of entities", 4);
+        for (auto& count : counts) count = numbers_.count("the number of entities", 4);
         for (int dimension = 0; dimension < 4; ++dimension) {
             for (std::size_t i = 0; i < counts[static_cast<std::size_t>(dimension)]; ++i) {
-                const long long tag = scanner_.integer("the tag of an entity");
-                for (int k = 0; k < (dimension == 0 ? 3 : 6); ++k) scanner_.real("a coordinate");
-                const std::size_t groups = scanner_.count("the number of physical groups", 2);
+                const long long tag = numbers_.integer("the tag of an entity");
+                for (int k = 0; k < (dimension == 0 ? 3 : 6); ++k) numbers_.real("a coordinate");
+                const std::size_t groups = numbers_.count("the number of physical groups", 2);
                 for (std::size_t g = 0; g < groups; ++g) {
-                    const int physical = scanner_.small_integer("a physical tag");
+                    const int physical = numbers_.small_integer("a physical tag");
                     if (g == 0) group_of_entity_[{dimension, tag}] = physical;
                 }
                 if (dimension == 0) continue;
-                const std::size_t bounding = scanner_.count("the number of bounding entities", 2);
-                for (std::size_t b = 0; b < bounding; ++b) scanner_.integer("a bounding entity");
+                const std::size_t bounding = numbers_.count("the number of bounding entities", 2);
+                for (std::size_t b = 0; b < bounding; ++b) numbers_.integer("a bounding entity");
             }
         }
         end("$EndEntities");
     }
 
     void start_nodes() {
-        if (has_nodes_) scanner_.fail("$Nodes a second time");
+        if (has_nodes_) numbers_.fail("$Nodes a second time");
         has_nodes_ = true;
     }
 
@@ -141,10 +148,11 @@ class GmshReader {
     void nodes() {
         start_nodes();
         const std::size_t count = scanner_.count("the number of nodes", 8);
+        numbers_.next_line();
         data_.points().reserve(count);
         for (std::size_t i = 0; i < count; ++i) {
-            const long long tag = positive("a node tag");
-            add_node(tag, scanner_.point());
+            const long long tag = numbers_.positive("a node tag");
+            add_node(tag, numbers_.point());
         }
         finish_nodes();
     }
@@ -153,37 +161,32 @@ class GmshReader {
         end("$EndNodes");
         const std::size_t twice = node_tags_.finish();
         if (twice < node_tags_.size())
-            scanner_.fail("node " + std::to_string(node_tags_.id(twice)) + " is defined twice");
-    }
-
-    long long positive(const char* what) {
-        const long long value = scanner_.integer(what);
-        if (value < 1) scanner_.fail(std::string(what) + " should be positive, not " + std::to_string(value));
-        return value;
+            numbers_.fail("node " + std::to_string(node_tags_.id(twice)) + " is defined twice");
     }
 
     void nodes_in_blocks() {
         start_nodes();
-        const std::size_t blocks = scanner_.count("the number of blocks", 8);
-        const std::size_t count = scanner_.count("the number of nodes", 8);
-        scanner_.integer("the smallest tag");
-        scanner_.integer("the largest tag");
+        numbers_.next_line();
+        const std::size_t blocks = numbers_.count("the number of blocks", 8);
+        const std::size_t count = numbers_.count("the number of nodes", 8);
+        numbers_.size("the smallest tag");
+        numbers_.size("the largest tag");
         data_.points().reserve(count);
         std::vector<long long> tags;
         for (std::size_t b = 0; b < blocks; ++b) {
-            const long long dimension = scanner_.integer("a dimension");
-            scanner_.integer("the tag of an entity");
-            const bool parametric = scanner_.integer("whether there are parameters") != 0;
-            const std::size_t size = scanner_.count("the number of nodes", 8);
+            const long long dimension = numbers_.integer("a dimension");
+            numbers_.integer("the tag of an entity");
+            const bool parametric = numbers_.integer("whether there are parameters") != 0;
+            const std::size_t size = numbers_.count("the number of nodes", 8);
             tags.clear();
-            for (std::size_t i = 0; i < size; ++i) tags.push_back(positive("a node tag"));
+            for (std::size_t i = 0; i < size; ++i) tags.push_back(numbers_.positive("a node tag"));
             for (std::size_t i = 0; i < size; ++i) {
-                add_node(tags[i], scanner_.point());
-                for (long long k = 0; parametric && k < dimension; ++k) scanner_.real("a parameter");
+                add_node(tags[i], numbers_.point());
+                for (long long k = 0; parametric && k < dimension; ++k) numbers_.real("a parameter");
             }
         }
         if (data_.points().size() != count)
-            scanner_.fail("there are " + std::to_string(data_.points().size()) + " nodes, not " +
+            numbers_.fail("there are " + std::to_string(data_.points().size()) + " nodes, not " +
                           std::to_string(count));
         finish_nodes();
     }
@@ -191,68 +194,85 @@ class GmshReader {
     std::size_t corners_or_fail(int type) const {
         const auto corners = corners_of(type);
         if (!corners)
-            scanner_.unsupported("elements of Gmsh's type " + std::to_string(type) + " are not supported",
+            numbers_.unsupported("elements of Gmsh's type " + std::to_string(type) + " are not supported",
                                  "triangles, quadrilaterals and hexahedra of first order are read");
         return *corners;
     }
 
     void take_element(long long tag, int type, std::size_t corners, int part) {
-        Element element{tag, {}, corners, part, scanner_.position()};
+        Element element{tag, {}, corners, part, numbers_.position()};
         if (corners == 0) {
-            for (std::size_t i = 0; i < nodes_of_skipped(type); ++i) scanner_.integer("a node tag");
+            for (std::size_t i = 0; i < nodes_of_skipped(type); ++i) numbers_.size("a node tag");
             ++skipped_;
             return;
         }
-        for (std::size_t i = 0; i < corners; ++i) element.nodes[i] = scanner_.integer("a node tag");
+        for (std::size_t i = 0; i < corners; ++i) element.nodes[i] = numbers_.size("a node tag");
         elements_.push_back(element);
     }
 
     void start_elements() {
-        if (has_elements_) scanner_.fail("$Elements a second time");
+        if (has_elements_) numbers_.fail("$Elements a second time");
         has_elements_ = true;
     }
 
     void elements() {
         start_elements();
         const std::size_t count = scanner_.count("the number of elements", 8);
-        for (std::size_t i = 0; i < count; ++i) {
-            const long long tag = positive("an element tag");
-            const int type = scanner_.small_integer("an element type");
-            const std::size_t corners = corners_or_fail(type);
-            const std::size_t tags = scanner_.count("the number of tags", 2);
-            // The physical group, then the geometric entity; 0 is no group.
-            int physical = 0, entity = 1;
-            for (std::size_t t = 0; t < tags; ++t) {
-                const int value = scanner_.small_integer("a tag");
-                if (t == 0) physical = value;
-                if (t == 1) entity = value;
+        numbers_.next_line();
+        for (std::size_t done = 0; done < count;) {
+            if (!numbers_.binary()) {
+                const long long tag = numbers_.positive("an element tag");
+                const int type = numbers_.small_integer("an element type");
+                take_element_with_tags(tag, type, numbers_.count("the number of tags", 2));
+                ++done;
+                continue;
             }
-            take_element(tag, type, corners, physical != 0 ? physical : entity);
+            const int type = numbers_.small_integer("an element type");
+            const std::size_t size = numbers_.count("the number of elements", 8);
+            const std::size_t tags = numbers_.count("the number of tags", 2);
+            if (size == 0 || size > count - done)
+                numbers_.fail("there are not " + std::to_string(count) + " elements");
+            for (std::size_t i = 0; i < size; ++i)
+                take_element_with_tags(numbers_.positive("an element tag"), type, tags);
+            done += size;
         }
         end("$EndElements");
     }
 
+    /// The tags are the physical group, then the geometric entity; 0 is no group.
+    void take_element_with_tags(long long tag, int type, std::size_t tags) {
+        const std::size_t corners = corners_or_fail(type);
+        int physical = 0, entity = 1;
+        for (std::size_t t = 0; t < tags; ++t) {
+            const int value = numbers_.small_integer("a tag");
+            if (t == 0) physical = value;
+            if (t == 1) entity = value;
+        }
+        take_element(tag, type, corners, physical != 0 ? physical : entity);
+    }
+
     void elements_in_blocks() {
         start_elements();
-        const std::size_t blocks = scanner_.count("the number of blocks", 8);
-        const std::size_t count = scanner_.count("the number of elements", 4);
-        scanner_.integer("the smallest tag");
-        scanner_.integer("the largest tag");
+        numbers_.next_line();
+        const std::size_t blocks = numbers_.count("the number of blocks", 8);
+        const std::size_t count = numbers_.count("the number of elements", 4);
+        numbers_.size("the smallest tag");
+        numbers_.size("the largest tag");
         std::size_t found = 0;
         for (std::size_t b = 0; b < blocks; ++b) {
-            const int dimension = scanner_.small_integer("a dimension");
-            const int entity = scanner_.small_integer("the tag of an entity");
-            const int type = scanner_.small_integer("an element type");
+            const int dimension = numbers_.small_integer("a dimension");
+            const int entity = numbers_.small_integer("the tag of an entity");
+            const int type = numbers_.small_integer("an element type");
             const std::size_t corners = corners_or_fail(type);
-            const std::size_t size = scanner_.count("the number of elements", 4);
+            const std::size_t size = numbers_.count("the number of elements", 4);
             const auto group = group_of_entity_.find({dimension, entity});
             const int part = group == group_of_entity_.end() ? entity : group->second;
             for (std::size_t i = 0; i < size; ++i)
-                take_element(positive("an element tag"), type, corners, part);
+                take_element(numbers_.positive("an element tag"), type, corners, part);
             found += size;
         }
         if (found != count)
-            scanner_.fail("there are " + std::to_string(found) + " elements, not " + std::to_string(count));
+            numbers_.fail("there are " + std::to_string(found) + " elements, not " + std::to_string(count));
         end("$EndElements");
     }
 
@@ -265,8 +285,6 @@ class GmshReader {
         });
         for (std::size_t i = 0; i < order.size(); ++i) {
             const Element& element = elements_[order[i]];
-            scanner_.seek(element.position);
-            scanner_.peek();
             if (i > 0 && elements_[order[i - 1]].tag == element.tag)
                 fail_at(element, "element " + std::to_string(element.tag) + " is defined twice");
             add(element);
@@ -279,7 +297,7 @@ class GmshReader {
     }
 
     [[noreturn]] void fail_at(const Element& element, const std::string& what) const {
-        throw Error(ErrorKind::bad_input, what, scanner_.file().line_place(element.position));
+        numbers_.fail_at(element.position, what);
     }
 
     void add(const Element& element) {
@@ -301,7 +319,8 @@ class GmshReader {
         data_.hexahedron_parts.push_back(element.part);
     }
 
-    TextScanner scanner_;
+    GmshNumbers numbers_;
+    TextScanner& scanner_;
     MeshData data_;
     bool new_layout_ = false;
     bool has_nodes_ = false;

@@ -1,5 +1,5 @@
-// Writes Gmsh meshes, version 4.1, ASCII: one entity with one physical group a part. Element tags are the
-// order of the elements.
+// Writes Gmsh meshes, ASCII: one entity with one physical group a part. Element tags are the order of the
+// elements. Version 4.1 in .msh, 2.2 in .msh2.
 #include "io/formats.h"
 #include "io/part_numbers.h"
 
@@ -51,30 +51,78 @@ void require_positive(int part) {
                     "Gmsh knows only positive ones");
 }
 
-void write(OutputFile& out, std::span<const Vec3> points, const Elements& elements, const PartNames& names) {
-    /// Element lists by part and type.
-    std::map<std::pair<int, int>, std::vector<std::size_t>> blocks;
-    std::vector<int> parts;
-    for (std::size_t e = 0; e < elements.count; ++e) {
-        blocks[{elements.part(e), type_of(elements.corners(e))}].push_back(e);
-        parts.push_back(elements.part(e));
-    }
-    parts = distinct_parts(std::move(parts));
-    for (const int part : parts) require_positive(part);
-
-    std::string& text = out.buffer();
-    text += "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n";
+void append_header(std::string& text, const char* version, int dimension, std::span<const int> parts,
+                   const PartNames& names) {
+    text.append("$MeshFormat\n").append(version).append(" 0 8\n$EndMeshFormat\n$PhysicalNames\n");
     append_row(text, parts.size());
     for (const int part : parts) {
-        append_number(text, elements.dimension);
+        append_number(text, dimension);
         text += ' ';
         append_number(text, part);
         text += ' ' + quoted(name_of_part(part, names)) + '\n';
     }
+    text += "$EndPhysicalNames\n";
+}
+
+std::vector<int> parts_of(const Elements& elements) {
+    std::vector<int> parts;
+    for (std::size_t e = 0; e < elements.count; ++e) parts.push_back(elements.part(e));
+    parts = distinct_parts(std::move(parts));
+    for (const int part : parts) require_positive(part);
+    return parts;
+}
+
+void append_corners(std::string& text, const Elements& elements, std::size_t e) {
+    for (std::size_t i = 0; i < elements.corners(e); ++i) {
+        text += ' ';
+        append_number(text, elements.corner(e, i) + 1);
+    }
+    text += '\n';
+}
+
+void write_2(OutputFile& out, std::span<const Vec3> points, const Elements& elements,
+             const PartNames& names) {
+    std::string& text = out.buffer();
+    append_header(text, "2.2", elements.dimension, parts_of(elements), names);
+    text += "$Nodes\n";
+    append_row(text, points.size());
+    for (std::size_t v = 0; v < points.size(); ++v) {
+        append_number(text, v + 1);
+        text += ' ';
+        append_point(text, points[v]);
+        text += '\n';
+        out.flush_if_large();
+    }
+    text += "$EndNodes\n$Elements\n";
+    append_row(text, elements.count);
+    for (std::size_t e = 0; e < elements.count; ++e) {
+        const int part = elements.part(e);
+        append_number(text, e + 1);
+        text += ' ';
+        append_number(text, type_of(elements.corners(e)));
+        text += " 2 ";
+        append_number(text, part);
+        text += ' ';
+        append_number(text, part);
+        append_corners(text, elements, e);
+        out.flush_if_large();
+    }
+    text += "$EndElements\n";
+}
+
+void write_4(OutputFile& out, std::span<const Vec3> points, const Elements& elements,
+             const PartNames& names) {
+    /// Element lists by part and type.
+    std::map<std::pair<int, int>, std::vector<std::size_t>> blocks;
+    for (std::size_t e = 0; e < elements.count; ++e)
+        blocks[{elements.part(e), type_of(elements.corners(e))}].push_back(e);
+    const std::vector<int> parts = parts_of(elements);
+    std::string& text = out.buffer();
+    append_header(text, "4.1", elements.dimension, parts, names);
     BoundingBox box;
     for (const Vec3& point : points) box.add(point);
     if (box.empty()) box.add(Vec3::Zero());
-    text += "$EndPhysicalNames\n$Entities\n";
+    text += "$Entities\n";
     const std::size_t surfaces = elements.dimension == 2 ? parts.size() : 0;
     append_row(text, 0, 0, surfaces, parts.size() - surfaces);
     for (const int part : parts) {
@@ -101,33 +149,41 @@ void write(OutputFile& out, std::span<const Vec3> points, const Elements& elemen
         append_row(text, elements.dimension, key.first, key.second, list.size());
         for (const std::size_t e : list) {
             append_number(text, e + 1);
-            for (std::size_t i = 0; i < elements.corners(e); ++i) {
-                text += ' ';
-                append_number(text, elements.corner(e, i) + 1);
-            }
-            text += '\n';
+            append_corners(text, elements, e);
             out.flush_if_large();
         }
     }
     text += "$EndElements\n";
 }
 
+Elements elements_of(const PolygonSoup& soup) {
+    return {2, soup.size(), [&](std::size_t f) { return soup.parts[f]; },
+            [&](std::size_t f) { return soup.polygon(f).size(); },
+            [&](std::size_t f, std::size_t i) { return std::size_t{soup.polygon(f)[i]}; }};
+}
+
+Elements elements_of(const HexMesh& mesh) {
+    return {3, mesh.cell_count(), [&](std::size_t c) { return mesh.part(CellId(c)); },
+            [](std::size_t) { return std::size_t{8}; },
+            [&](std::size_t c, std::size_t i) { return mesh.cell(CellId(c))[i].index(); }};
+}
+
 }  // namespace
 
 void write_gmsh_surface(OutputFile& out, const PolygonSoup& soup, const PartNames& names) {
-    write(out, soup.points,
-          {2, soup.size(), [&](std::size_t f) { return soup.parts[f]; },
-           [&](std::size_t f) { return soup.polygon(f).size(); },
-           [&](std::size_t f, std::size_t i) { return std::size_t{soup.polygon(f)[i]}; }},
-          names);
+    write_4(out, soup.points, elements_of(soup), names);
 }
 
 void write_gmsh_hexahedra(OutputFile& out, const HexMesh& mesh, const Fields& fields) {
-    write(out, mesh.positions(),
-          {3, mesh.cell_count(), [&](std::size_t c) { return mesh.part(CellId(c)); },
-           [](std::size_t) { return std::size_t{8}; },
-           [&](std::size_t c, std::size_t i) { return mesh.cell(CellId(c))[i].index(); }},
-          fields.part_names);
+    write_4(out, mesh.positions(), elements_of(mesh), fields.part_names);
+}
+
+void write_gmsh_2_surface(OutputFile& out, const PolygonSoup& soup, const PartNames& names) {
+    write_2(out, soup.points, elements_of(soup), names);
+}
+
+void write_gmsh_2_hexahedra(OutputFile& out, const HexMesh& mesh, const Fields& fields) {
+    write_2(out, mesh.positions(), elements_of(mesh), fields.part_names);
 }
 
 }  // namespace hex::io

@@ -27,11 +27,11 @@ struct ScalarField {
 struct Fields {
     std::vector<ScalarField> cell;
     std::vector<ScalarField> vertex;
-    /// Of part ids; used by formats that have them (.inp, .msh), passed over by the others.
+    /// Of part ids; used by formats that have them (.inp, .msh, .msh2), passed over by the others.
     PartNames part_names = {};
 };
 
-/// Reads .k .key .vtk .vtu .mesh .mfem .inp .msh .ovm (any case). A file of shells or triangles gives
+/// Reads .k .key .vtk .vtu .mesh .mfem .inp .msh .msh2 .ovm (any case). A file of shells or triangles gives
 /// Error{bad_input} that says so. Throws Error{bad_input} with `file:line` (or byte offset),
 /// Error{unsupported} for an unknown extension.
 HexFile read_hex_mesh(const std::filesystem::path& path);

@@ -22,8 +22,8 @@ struct SurfaceFile {
     std::vector<std::array<std::uint32_t, 2>> sharp_edges = {};
 };
 
-/// Reads .k .key .vtk .vtu .mesh .mfem .inp .msh .ovm .stl .obj .off .ply, and .step .stp .iges .igs .brep by
-/// read_cad with its default options (any case). A file of hexahedra gives Error{bad_input} that says so.
+/// Reads .k .key .vtk .vtu .mesh .mfem .inp .msh .msh2 .ovm .stl .obj .off .ply, .step .stp .iges .igs .brep
+/// by read_cad with its default options (any case). A file of hexahedra gives Error{bad_input} that says so.
 /// Points that no polygon uses are kept; whether the polygons make a surface is not asked here
 /// (make_poly_mesh does). Throws Error{bad_input} with `file:line` (or byte offset for binary formats),
 /// Error{unsupported} for an unknown extension.
@@ -31,7 +31,7 @@ SurfaceFile read_surface(const std::filesystem::path& path);
 
 /// Writes the format of the extension; throws Error{unsupported} for one that cannot carry a surface,
 /// Error{output} when the file cannot be written. Doubles round-trip exactly in every text format.
-/// `part_names` are used by formats that have them (.inp, .msh).
+/// `part_names` are used by formats that have them (.inp, .msh, .msh2).
 void write_surface(const std::filesystem::path& path, const PolygonSoup& soup,
                    const PartNames& part_names = {});
 
