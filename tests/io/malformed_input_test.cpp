@@ -181,7 +181,7 @@ const std::vector<Malformed> cases = {
     {"msh_binary_order", ".msh", "$MeshFormat\n2.2 1 8\n" + le32(2) + "\n$EndMeshFormat\n", ":byte",
      "byte order"},
     {"msh_binary_cut_off", ".msh",
-     "$MeshFormat\n2.2 1 8\n" + le32(1) + "\n$EndMeshFormat\n$Nodes\n1\n" + le32(1), ":byte",
+     "$MeshFormat\n2.2 1 8\n" + le32(1) + "\n$EndMeshFormat\n$Nodes\n1\n" + le32(1) + le32(0), ":byte",
      "a coordinate should be"},
     {"msh_binary_huge", ".msh",
      "$MeshFormat\n4.1 1 8\n" + le32(1) + "\n$EndMeshFormat\n$Nodes\n" + le32(9) + le32(9) + le32(1) +

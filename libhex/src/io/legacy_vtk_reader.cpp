@@ -1,8 +1,6 @@
 // Reads legacy VTK files, versions 1 to 5.1, ASCII and binary: unstructured grids and poly data.
-#include "io/byte_order.h"
 #include "io/formats.h"
-#include "io/number_array.h"
-#include "io/text_scanner.h"
+#include "io/legacy_vtk_numbers.h"
 #include "io/vtk_cells.h"
 
 #include <hex/base/error.h>
@@ -15,30 +13,11 @@
 namespace hex::io {
 namespace {
 
-/// Number types of the format.
-enum class Type { bit, int8, uint8, int16, uint16, int32, uint32, int64, uint64, float32, float64 };
-
-std::size_t size_of(Type type) {
-    switch (type) {
-        case Type::bit:
-        case Type::int8:
-        case Type::uint8:
-            return 1;
-        case Type::int16:
-        case Type::uint16:
-            return 2;
-        case Type::int32:
-        case Type::uint32:
-        case Type::float32:
-            return 4;
-        default:
-            return 8;
-    }
-}
+using Type = LegacyVtkNumbers::Type;
 
 class LegacyVtkReader {
   public:
-    explicit LegacyVtkReader(const InputFile& file) : scanner_(file) {}
+    explicit LegacyVtkReader(const InputFile& file) : numbers_(file), scanner_(numbers_.scanner()) {}
 
     MeshData read() {
         header();
@@ -72,7 +51,7 @@ class LegacyVtkReader {
         const std::string encoding = upper_case(scanner_.word("ASCII or BINARY"));
         if (encoding != "ASCII" && encoding != "BINARY")
             scanner_.fail("ASCII or BINARY should be here, not " + in_quotes(encoding));
-        binary_ = encoding == "BINARY";
+        numbers_.set_binary(encoding == "BINARY");
         if (upper_case(scanner_.word("DATASET")) != "DATASET") scanner_.fail("DATASET should be here");
         const std::string kind = upper_case(scanner_.word("the kind of data set"));
         if (kind != "UNSTRUCTURED_GRID" && kind != "POLYDATA")
@@ -123,122 +102,35 @@ class LegacyVtkReader {
         return count;
     }
 
-    // --- numbers, in text or binary ---
-
-    Type type() {
-        const std::string name = lower_case(scanner_.word("a number type"));
-        struct Entry {
-            const char* name;
-            Type type;
-        };
-        static constexpr std::array entries = {
-            Entry{"double", Type::float64}, Entry{"float", Type::float32}, Entry{"int", Type::int32},
-            Entry{"unsigned_int", Type::uint32}, Entry{"long", Type::int64},
-            Entry{"unsigned_long", Type::uint64}, Entry{"vtktypeint64", Type::int64},
-            Entry{"vtktypeuint64", Type::uint64}, Entry{"vtktypeint32", Type::int32},
-            Entry{"vtktypeuint32", Type::uint32},
-            // Binary files hold vtkIdType as 32-bit numbers.
-            Entry{"vtkidtype", Type::int32}, Entry{"short", Type::int16},
-            Entry{"unsigned_short", Type::uint16}, Entry{"char", Type::int8},
-            Entry{"signed_char", Type::int8}, Entry{"unsigned_char", Type::uint8}, Entry{"bit", Type::bit}};
-        for (const Entry& entry : entries) {
-            if (name == entry.name) return entry.type;
-        }
-        scanner_.unsupported("unknown number type " + in_quotes(name));
-    }
-
-    /// Before the numbers of an array: binary ones start on the next line and must all be there.
-    void start_array(std::size_t count, Type type) {
-        type_ = type;
-        if (!binary_) {
-            scanner_.check_count(static_cast<long long>(std::min<std::size_t>(count, INT64_MAX)),
-                                 "the number of values", 2);
-            return;
-        }
-        scanner_.rest_of_line();
-        const std::size_t left = scanner_.text().size() - scanner_.position();
-        const std::size_t needed = type == Type::bit ? (count + 7) / 8 : count;
-        if (needed > left / size_of(type))
-            fail_binary("the file ends within binary data of " + std::to_string(count) + " numbers");
-    }
-
-    [[noreturn]] void fail_binary(const std::string& what) const {
-        throw Error(ErrorKind::bad_input, what, scanner_.file().byte_place(scanner_.position()));
-    }
-    [[noreturn]] void fail_value(const std::string& what) const {
-        if (binary_) fail_binary(what);
-        scanner_.fail(what);
-    }
-
-    template <class Number>
-    Number take() {
-        const auto value = load<Number>(scanner_.text().data() + scanner_.position(), std::endian::big);
-        scanner_.seek(scanner_.position() + sizeof(Number));
-        return value;
-    }
-    template <class Result>
-    Result take_as() {
-        switch (type_) {
-            case Type::bit:
-            case Type::uint8:
-                return static_cast<Result>(take<std::uint8_t>());
-            case Type::int8:
-                return static_cast<Result>(take<std::int8_t>());
-            case Type::int16:
-                return static_cast<Result>(take<std::int16_t>());
-            case Type::uint16:
-                return static_cast<Result>(take<std::uint16_t>());
-            case Type::int32:
-                return static_cast<Result>(take<std::int32_t>());
-            case Type::uint32:
-                return static_cast<Result>(take<std::uint32_t>());
-            case Type::int64:
-                return static_cast<Result>(take<std::int64_t>());
-            case Type::uint64:
-                return static_cast<Result>(take<std::uint64_t>());
-            case Type::float32:
-                return static_cast<Result>(take<float>());
-            case Type::float64:
-                break;
-        }
-        return static_cast<Result>(take<double>());
-    }
-    long long next_integer() { return binary_ ? take_as<long long>() : scanner_.integer("a value"); }
-    double next_real() { return binary_ ? take_as<double>() : scanner_.real("a value"); }
-    void require_integers(Type type) const {
-        if (type == Type::float32 || type == Type::float64 || type == Type::bit)
-            scanner_.fail("this should be an integer type");
-    }
-
     // --- geometry ---
 
     void points() {
         if (has_points_) scanner_.fail("POINTS a second time");
-        const std::size_t count = scanner_.count("the number of points", binary_ ? 3 : 6);
-        start_array(3 * count, type());
+        const std::size_t count = scanner_.count("the number of points", numbers_.binary() ? 3 : 6);
+        numbers_.start_array(3 * count, numbers_.type());
         has_points_ = true;
         auto& points = data_.points();
-        if (!binary_) {
+        if (!numbers_.binary()) {
             points.resize(count);
-            if (count > 0 && take_numbers(std::span(points.front().data(), 3 * count))) return;
+            if (count > 0 && numbers_.take_numbers(std::span(points.front().data(), 3 * count))) return;
             points.clear();
         }
         points.reserve(count);
         for (std::size_t i = 0; i < count; ++i) {
-            const double x = next_real();
-            const double y = next_real();
-            const double z = next_real();
+            const double x = numbers_.next_real();
+            const double y = numbers_.next_real();
+            const double z = numbers_.next_real();
             points.emplace_back(x, y, z);
-            if (binary_ && !points.back().allFinite())
-                fail_binary("point " + std::to_string(i) + " has a coordinate that is not finite");
+            if (numbers_.binary() && !points.back().allFinite())
+                numbers_.fail_binary("point " + std::to_string(i) + " has a coordinate that is not finite");
         }
     }
 
     std::uint32_t next_corner() {
-        const long long v = next_integer();
+        const long long v = numbers_.next_integer();
         if (v < 0 || v >= static_cast<long long>(data_.points().size()))
-            fail_value("point index " + std::to_string(v) + " is not in 0.." +
-                       std::to_string(static_cast<long long>(data_.points().size()) - 1));
+            numbers_.fail_value("point index " + std::to_string(v) + " is not in 0.." +
+                                std::to_string(static_cast<long long>(data_.points().size()) - 1));
         return static_cast<std::uint32_t>(v);
     }
 
@@ -251,30 +143,32 @@ class LegacyVtkReader {
         if (count > size)
             scanner_.fail(std::to_string(count) + " cells do not fit into a list of " + std::to_string(size) +
                           " numbers");
-        start_array(size, Type::int32);
+        numbers_.start_array(size, Type::int32);
         if (take_rows(result, count, size)) return;
         result.offsets.reserve(count + 1);
         result.corners.reserve(size - count);
         std::size_t left = size;
         for (std::size_t c = 0; c < count; ++c) {
-            const long long corners = left > 0 ? next_integer() : 0;
+            const long long corners = left > 0 ? numbers_.next_integer() : 0;
             if (corners < 1 || static_cast<unsigned long long>(corners) > left - 1)
-                fail_value("cell " + std::to_string(c) + " with " + std::to_string(corners) +
-                           " corners does not fit into the list of " + std::to_string(size) + " numbers");
+                numbers_.fail_value("cell " + std::to_string(c) + " with " + std::to_string(corners) +
+                                    " corners does not fit into the list of " + std::to_string(size) +
+                                    " numbers");
             left -= static_cast<std::size_t>(corners) + 1;
             for (long long i = 0; i < corners; ++i) result.corners.push_back(next_corner());
             result.offsets.push_back(result.corners.size());
         }
-        if (left > 0) fail_value("the cells leave " + std::to_string(left) + " numbers of their list unused");
+        if (left > 0)
+            numbers_.fail_value("the cells leave " + std::to_string(left) + " numbers of their list unused");
     }
 
     /// The rows of a text file in one go; false, and nothing taken, when something about them is wrong: then
     /// they are read one by one, which finds out what and where.
     bool take_rows(Rows& result, std::size_t count, std::size_t size) {
-        if (binary_) return false;
+        if (numbers_.binary()) return false;
         const std::size_t start = scanner_.position();
         std::vector<std::uint32_t> numbers(size);
-        if (!take_numbers(std::span(numbers))) return false;
+        if (!numbers_.take_numbers(std::span(numbers))) return false;
         Rows rows;
         rows.offsets.reserve(count + 1);
         const std::size_t points = data_.points().size();
@@ -303,39 +197,31 @@ class LegacyVtkReader {
         return true;
     }
 
-    /// The next numbers of a text file; false, and nothing taken, when they are not all there and right.
-    template <class Number>
-    bool take_numbers(std::span<Number> numbers) {
-        const auto end = parse_numbers(scanner_.text(), scanner_.position(), numbers);
-        if (end) scanner_.seek(*end);
-        return end.has_value();
-    }
-
     /// The layout since version 5: offsets of all cells, then corners of all cells.
     void rows_with_offsets(Rows& result, std::size_t count, std::size_t size) {
         scanner_.word("OFFSETS");
-        Type offsets_type = type();
-        require_integers(offsets_type);
-        start_array(count, offsets_type);
+        Type offsets_type = numbers_.type();
+        numbers_.require_integers(offsets_type);
+        numbers_.start_array(count, offsets_type);
         result.offsets.clear();
         result.offsets.reserve(count + 1);
         for (std::size_t i = 0; i < count; ++i) {
-            const long long offset = next_integer();
+            const long long offset = numbers_.next_integer();
             const long long before = i == 0 ? 0 : static_cast<long long>(result.offsets.back());
             if (offset < before || (i == 0 && offset != 0) || offset > static_cast<long long>(size))
-                fail_value("offset " + std::to_string(offset) + " of cell " + std::to_string(i) +
-                           " does not follow " + std::to_string(before));
+                numbers_.fail_value("offset " + std::to_string(offset) + " of cell " + std::to_string(i) +
+                                    " does not follow " + std::to_string(before));
             result.offsets.push_back(static_cast<std::size_t>(offset));
         }
         if (count == 0) result.offsets.push_back(0);
         if (result.offsets.back() != size)
-            fail_value("the offsets end at " + std::to_string(result.offsets.back()) + ", not at " +
-                       std::to_string(size));
+            numbers_.fail_value("the offsets end at " + std::to_string(result.offsets.back()) + ", not at " +
+                                std::to_string(size));
         if (upper_case(scanner_.word("CONNECTIVITY")) != "CONNECTIVITY")
             scanner_.fail("CONNECTIVITY should be here");
-        const Type corners_type = type();
-        require_integers(corners_type);
-        start_array(size, corners_type);
+        const Type corners_type = numbers_.type();
+        numbers_.require_integers(corners_type);
+        numbers_.start_array(size, corners_type);
         result.corners.reserve(size);
         for (std::size_t i = 0; i < size; ++i) result.corners.push_back(next_corner());
     }
@@ -345,18 +231,18 @@ class LegacyVtkReader {
         if (count != cells_.size())
             scanner_.fail(std::to_string(count) + " cell types for " + std::to_string(cells_.size()) +
                           " cells");
-        start_array(count, Type::int32);
-        std::vector<std::uint32_t> numbers(binary_ ? 0 : count);
-        if (!binary_ && take_numbers(std::span(numbers)) &&
+        numbers_.start_array(count, Type::int32);
+        std::vector<std::uint32_t> numbers(numbers_.binary() ? 0 : count);
+        if (!numbers_.binary() && numbers_.take_numbers(std::span(numbers)) &&
             std::all_of(numbers.begin(), numbers.end(), [](std::uint32_t type) { return type <= 255; })) {
             types_.assign(numbers.begin(), numbers.end());
             return;
         }
         types_.reserve(count);
         for (std::size_t i = 0; i < count; ++i) {
-            const long long value = next_integer();
+            const long long value = numbers_.next_integer();
             if (value < 0 || value > 255)
-                fail_value("cell type " + std::to_string(value) + " does not exist");
+                numbers_.fail_value("cell type " + std::to_string(value) + " does not exist");
             types_.push_back(static_cast<int>(value));
         }
     }
@@ -367,23 +253,19 @@ class LegacyVtkReader {
         if (components != 0 && tuples > std::numeric_limits<std::size_t>::max() / components)
             scanner_.fail("too many values");
         const std::size_t count = components * tuples;
-        start_array(count, type);
+        numbers_.start_array(count, type);
         const bool wanted =
             on_cells_ && components == 1 && tuples == cell_count() && parts_.empty() && names_part_ids(name);
         if (wanted && type != Type::bit) {
             std::vector<double> part_values(count);
-            for (double& value : part_values) value = next_real();
+            for (double& value : part_values) value = numbers_.next_real();
             if (auto parts = to_parts(part_values))
                 parts_ = std::move(*parts);
             else
                 data_.warn("part-ids-skipped", "cell field " + in_quotes(name) +
                                                    " holds values that are no integers: part ids skipped");
-        } else if (binary_) {
-            const std::size_t bytes = type == Type::bit ? (count + 7) / 8 : count * size_of(type);
-            scanner_.seek(scanner_.position() + bytes);
         } else {
-            // Values of skipped fields may be anything, nan too.
-            for (std::size_t i = 0; i < count; ++i) scanner_.word("a value");
+            numbers_.skip_array(count);
         }
     }
 
@@ -391,7 +273,7 @@ class LegacyVtkReader {
         const auto name = [&] { return std::string(scanner_.word("a name")); };
         if (keyword == "SCALARS") {
             const std::string field_name = name();
-            const Type field_type = type();
+            const Type field_type = numbers_.type();
             const std::string_view rest = scanner_.rest_of_line();
             std::size_t components = 1;
             if (!rest.empty()) {
@@ -413,19 +295,20 @@ class LegacyVtkReader {
         }
         if (keyword == "LOOKUP_TABLE") {
             name();
-            values("", binary_ ? Type::uint8 : Type::float32, 4, scanner_.count("the size of the table", 4));
+            values("", numbers_.binary() ? Type::uint8 : Type::float32, 4,
+                   scanner_.count("the size of the table", 4));
             return true;
         }
         if (keyword == "COLOR_SCALARS") {
             name();
-            values("", binary_ ? Type::uint8 : Type::float32, scanner_.count("the number of components", 1),
-                   tuples_);
+            values("", numbers_.binary() ? Type::uint8 : Type::float32,
+                   scanner_.count("the number of components", 1), tuples_);
             return true;
         }
         if (keyword == "TEXTURE_COORDINATES") {
             name();
             const std::size_t components = scanner_.count("the dimension", 1);
-            values("", type(), components, tuples_);
+            values("", numbers_.type(), components, tuples_);
             return true;
         }
         const std::size_t components =
@@ -436,7 +319,7 @@ class LegacyVtkReader {
                                                                                               : 0;
         if (components == 0) return false;
         name();
-        values("", type(), components, tuples_);
+        values("", numbers_.type(), components, tuples_);
         return true;
     }
 
@@ -452,14 +335,14 @@ class LegacyVtkReader {
             const std::size_t components = scanner_.count("the number of components", 1);
             const std::size_t tuples = scanner_.count("the number of tuples", 1);
             if (lower_case(scanner_.peek()) == "string") {
-                if (binary_) scanner_.unsupported("binary arrays of strings are not supported");
+                if (numbers_.binary()) scanner_.unsupported("binary arrays of strings are not supported");
                 scanner_.word("string");
                 scanner_.rest_of_line();
                 for (std::size_t s = 0; s < components * tuples && !scanner_.at_end(); ++s)
                     scanner_.rest_of_line();
                 continue;
             }
-            values(array_name, type(), components, tuples);
+            values(array_name, numbers_.type(), components, tuples);
         }
     }
 
@@ -490,15 +373,14 @@ class LegacyVtkReader {
         append_cells(data_, all, parts_, scanner_.file().name());
     }
 
-    TextScanner scanner_;
+    LegacyVtkNumbers numbers_;
+    TextScanner& scanner_;
     MeshData data_;
-    bool binary_ = false;
     bool grid_ = false;
     bool has_points_ = false;
     bool stopped_ = false;
     bool on_cells_ = false;
     std::size_t tuples_ = 0;
-    Type type_ = Type::int32;
     Rows cells_;
     std::array<Rows, 4> poly_;
     std::vector<int> types_;
