@@ -66,6 +66,11 @@ constexpr std::size_t most_candidates = 12;
 /// is good enough; a bad one may lose almost nothing.
 constexpr double minimum_for_mean = 0.04;
 constexpr double bad_minimum_for_mean = 0.005;
+/// Shares of the work allowed after which `begin`, raising in `finish`, and raising the mean end.
+constexpr double share_of_begin = 0.5;
+constexpr double share_of_finish = 0.9;
+constexpr double share_of_mean = 1.0;
+constexpr double share_of_ascent = 0.1;
 
 CurveOptions curve_options(const ImproveOptions& options) {
     CurveOptions curves;
@@ -137,6 +142,11 @@ std::size_t MinimumRaiser::sharp_edge_count() const {
         std::count(guide_.feature_edges().begin(), guide_.feature_edges().end(), char{1}));
 }
 
+bool MinimumRaiser::is_over() const {
+    return deadline_.passed() ||
+           (options_.work_limit > 0.0 && sliding_.work() > share_of_work_ * options_.work_limit);
+}
+
 double MinimumRaiser::aim() const {
     // The way from the smooth curves to the exact ones costs quality, so the target is for after it.
     return exact_ ? options_.target : 1.0;
@@ -201,6 +211,7 @@ void MinimumRaiser::measure_start() {
 }
 
 void MinimumRaiser::begin() {
+    share_of_work_ = share_of_begin;
     last_record_ = deadline_.elapsed();
     const bool exact_surface = options_.surface != nullptr;
     const double percent =
@@ -217,6 +228,7 @@ void MinimumRaiser::begin() {
 }
 
 void MinimumRaiser::finish() {
+    share_of_work_ = share_of_finish;
     last_record_ = deadline_.elapsed();
     const bool exact_surface = options_.surface != nullptr;
     // A little less, so that rounding does not make it too much.
@@ -247,7 +259,8 @@ void MinimumRaiser::finish() {
 }
 
 void MinimumRaiser::raise_mean() {
-    if (candidates_.front().record.inverted > 0 || deadline_.passed()) return;
+    share_of_work_ = share_of_mean;
+    if (candidates_.front().record.inverted > 0 || is_over()) return;
     const Candidate start = candidates_.front();
     sliding_.set_positions(start.positions);
     QualityMeshEnergy mean(sliding_.boxes());
@@ -256,7 +269,7 @@ void MinimumRaiser::raise_mean() {
     mean.barrier_weight = QualityMean().barrier_weight;
     DescentOptions descent;
     descent.most_iterations = 100;
-    descent.satisfied = [&] { return deadline_.passed(); };
+    descent.satisfied = [&] { return is_over(); };
     (void)descend(sliding_, mean, descent, context_);
     record("mean", false);
     const double cost =
@@ -321,10 +334,10 @@ void MinimumRaiser::untangle() {
     });
     double det = smallest_determinant(sliding_.mesh(), boxes);
     energy.epsilon = det > 0.0 ? 1e-3 : std::sqrt(1e-6 + 0.04 * det * det);
-    for (int k = 0; k < most_continuations && !deadline_.passed(); ++k) {
+    for (int k = 0; k < most_continuations && !is_over(); ++k) {
         DescentOptions descent;
         descent.most_iterations = 100;
-        descent.satisfied = [&] { return deadline_.passed(); };
+        descent.satisfied = [&] { return is_over(); };
         const DescentResult result = descend(sliding_, mesh_energy, descent, context_);
         det = smallest_determinant(sliding_.mesh(), boxes);
         record("untangle", exact_);
@@ -358,7 +371,7 @@ void MinimumRaiser::raise() {
     ascend();
     constexpr double first_gap = 0.3;
     for (const double gap : {first_gap, 0.1, 0.03}) {
-        if (reached_target() || deadline_.passed()) return;
+        if (reached_target() || is_over()) return;
         const ImproveRecord before = now_;
         lower_barrier(gap);
         ascend();
@@ -376,17 +389,22 @@ void MinimumRaiser::lower_barrier(double gap) {
         DescentOptions descent;
         descent.most_iterations = 50;
         descent.relative_gain = 1e-5;
-        descent.satisfied = [&] { return deadline_.passed(); };
+        descent.satisfied = [&] { return is_over(); };
         (void)descend(sliding_, barrier, descent, context_);
         record("barrier", exact_);
-        if (deadline_.passed() || now_.min - before.min < 0.25 * gap) return;
+        if (is_over() || now_.min - before.min < 0.25 * gap) return;
     }
 }
 
 void MinimumRaiser::ascend() {
     AscentOptions options;
     options.target = aim();
-    options.satisfied = [&] { return deadline_.passed(); };
+    // What this gives for its price no descent does: it may go on a little longer than they.
+    options.satisfied = [&] {
+        return deadline_.passed() ||
+               (options_.work_limit > 0.0 &&
+                sliding_.work() > (share_of_work_ + share_of_ascent) * options_.work_limit);
+    };
     if (raise_star_minima(sliding_, options, context_) > 0) record("ascent", exact_);
 }
 

@@ -56,6 +56,7 @@ class MinimumRaiser {
     }
     /// The mesh between `begin` and `finish`.
     const HexMesh& current() const { return sliding_.mesh(); }
+    double work() const { return sliding_.work(); }
     const ImproveRecord& now() const { return now_; }
     /// To be as close to the surface as another raiser has to be; call before `begin`.
     void take_limits(const MinimumRaiser& other) {
@@ -95,6 +96,8 @@ class MinimumRaiser {
     /// Notes the mesh as it is now; it becomes a candidate if `eligible`.
     void record(const std::string& step, bool eligible);
     void measure_start();
+    /// No time, or no work, is left for what is running.
+    bool is_over() const;
     /// The minimum at which raising stops.
     double aim() const;
     bool reached_target() const;
@@ -124,6 +127,7 @@ class MinimumRaiser {
     ImproveRecord input_;
     ImproveRecord now_;
     double most_deviation_ = 0.0;
+    double share_of_work_ = 1.0;
     bool exact_ = false;
     bool limits_given_ = false;
     double last_record_ = 0.0;

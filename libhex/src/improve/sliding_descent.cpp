@@ -84,6 +84,7 @@ void SlidingMesh::attach() {
 
 double SlidingMesh::evaluate(const MeshEnergy& energy, std::vector<Vec3>* gradient) const {
     constexpr std::size_t chunk = 128;
+    work_ += static_cast<double>(mesh_.cell_count());
     parallel_for((mesh_.cell_count() + chunk - 1) / chunk,
                  [&](std::size_t i) {
                      energy.evaluate(mesh_, i * chunk, std::min((i + 1) * chunk, mesh_.cell_count()),

@@ -50,6 +50,10 @@ class SlidingMesh {
     /// places. The same bits for any number of threads; infinite as soon as one cell is.
     double evaluate(const MeshEnergy& energy, std::vector<Vec3>* gradient) const;
 
+    /// Evaluations of a cell so far: a measure of the work done that is the same on any machine.
+    double work() const { return work_; }
+    void add_work(double evaluations) { work_ += evaluations; }
+
     /// Drops the part of each vector that leaves the surface, and everything where vertices are fixed. With
     /// slack, only what leaves the slack; `sign` is -1 for gradients, whose opposite is where vertices go.
     void make_tangential(std::vector<Vec3>& vectors, double sign) const;
@@ -86,6 +90,7 @@ class SlidingMesh {
     std::vector<std::uint32_t> item_;
     mutable std::vector<std::array<Vec3, 8>> cell_gradient_;
     mutable std::vector<double> cell_value_;
+    mutable double work_ = 0.0;
 };
 
 struct DescentOptions {

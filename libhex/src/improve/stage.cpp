@@ -16,6 +16,7 @@ void check_options(const HexMesh& mesh, const ImproveOptions& options) {
     if (!(options.feature_cosine >= -1.0 && options.feature_cosine <= 1.0))
         refuse("the cosine of the feature angle is not in [-1, 1]", "the paper's rod takes 0.8");
     if (!(options.time_limit >= 0.0)) refuse("the time limit is negative", "give seconds, or 0 for none");
+    if (!(options.work_limit >= 0.0)) refuse("the work limit is negative", "give evaluations, or 0 for none");
     if (!(options.target > 0.0 && options.target <= 1.0))
         refuse("the target is not in (0, 1]", "it is a scaled Jacobian; 1 means as good as possible");
 }

@@ -18,6 +18,8 @@ constexpr double careless = 0.3;
 constexpr double exchange = 10.0;
 /// Edges that are shorter than this share of what they should be do not get shorter still.
 constexpr double shortest = 0.05;
+/// What raising a vertex costs, in evaluations of a cell's energy with its gradient.
+constexpr double work_per_vertex = 30.0;
 /// Lengths of the tried steps in shares of the mean edge length.
 constexpr std::array<double, 6> steps = {0.4, 0.15, 0.05, 0.015, 0.005, 0.0015};
 
@@ -174,6 +176,7 @@ int raise_star_minima(SlidingMesh& mesh, const AscentOptions& options, const Con
                 for (const VertexId v : mesh.mesh().cell(c)) active[v.index()] = 1;
         std::size_t moved = 0;
         for (const auto& members : independent_classes(mesh.mesh(), cells, active, ascent.reads(active))) {
+            mesh.add_work(work_per_vertex * static_cast<double>(members.size()));
             moved += parallel_reduce(
                 members.size(), std::size_t{0},
                 [&](std::size_t count, std::size_t i) { return count + ascent.raise(members[i]); },

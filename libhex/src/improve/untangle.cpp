@@ -61,6 +61,7 @@ ImproveResult result_of(const HexMesh& input, const MinimumRaiser& raiser, const
     ImproveResult result;
     result.report.history = raiser.history();
     result.report.seconds = raiser.seconds();
+    result.report.work = raiser.work();
     result.report.sharp_edges = raiser.sharp_edge_count();
     if (!raiser.has_best() || improving::better(measure(input, context), raiser.best_record())) {
         result.mesh = input;
@@ -142,6 +143,7 @@ class AutoImprover : public Improver {
         auto& history = result.report.history;
         history.insert(history.begin(), plain.history().begin(), plain.history().end());
         for (std::size_t i = 0; i < history.size(); ++i) history[i].sweep = static_cast<int>(i) + 1;
+        result.report.work += plain.work();
         for (const auto& [step, seconds] : plain.seconds()) add_seconds(result.report, step, seconds);
         if (result.mesh.cell_count() == mesh.cell_count()) return result;
         std::string text =

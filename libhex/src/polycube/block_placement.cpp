@@ -23,10 +23,25 @@ double corner_determinant(const HexMesh& blocks, CellId c, std::size_t k, bool s
     return size > 0.0 ? det / size : -1.0;
 }
 
-double worst_corner(const HexMesh& blocks, std::span<const CellId> cells) {
+bool touches(const HexCell& cell, std::size_t corner, VertexId v) {
+    const auto& n = hexahedron::corner_neighbours[corner];
+    return cell[corner] == v || std::any_of(n.begin(), n.end(), [&](int neighbour) {
+               return cell[static_cast<std::size_t>(neighbour)] == v;
+           });
+}
+
+/// Smallest scaled determinant of the corners of cells that v does, or does not, have a part in; only whether
+/// it is above `enough` matters.
+double worst_corner(const HexMesh& blocks, std::span<const CellId> cells, VertexId v, bool with_part,
+                    double enough) {
     double worst = 1.0;
-    for (const CellId c : cells)
-        for (std::size_t k = 0; k < 8; ++k) worst = std::min(worst, corner_determinant(blocks, c, k, true));
+    for (const CellId c : cells) {
+        for (std::size_t k = 0; k < 8; ++k) {
+            if (touches(blocks.cell(c), k, v) != with_part) continue;
+            worst = std::min(worst, corner_determinant(blocks, c, k, true));
+            if (worst <= enough) return worst;
+        }
+    }
     return worst;
 }
 
@@ -73,12 +88,23 @@ void place_inner_vertices(HexMesh& blocks, const std::vector<char>& free) {
         if (moved < 1e-9 * bounding_box(blocks).diagonal()) break;
     }
 
+    // Where nothing around a vertex has moved since it was looked at in vain, it need not be looked at again.
+    std::vector<std::size_t> moved_at(blocks.vertex_count(), 1);
+    std::vector<std::size_t> seen_at(blocks.vertex_count(), 0);
+    std::size_t now = 1;
     for (int sweep = 0; sweep < 60; ++sweep) {
         bool any = false;
         for (const VertexId v : inner) {
             const auto star = cells[v.index()];
-            double worst = worst_corner(blocks, star);
-            if (worst > 0.5) continue;
+            std::size_t last_move = 0;
+            for (const CellId c : star)
+                for (const VertexId w : blocks.cell(c)) last_move = std::max(last_move, moved_at[w.index()]);
+            if (last_move <= seen_at[v.index()]) continue;
+            seen_at[v.index()] = now;
+            double worst = worst_corner(blocks, star, v, true, -2.0);
+            // Where another corner of the cells is worse, moving v does not help.
+            const double others = worst_corner(blocks, star, v, false, worst);
+            if (worst > 0.5 || others <= worst) continue;
             double reach = 0.0;
             for (const EdgeId e : edges.vertex_edges[v.index()])
                 reach += (blocks.position(edges.other(e, v)) - blocks.position(v)).norm();
@@ -92,17 +118,20 @@ void place_inner_vertices(HexMesh& blocks, const std::vector<char>& free) {
                             if (i == 0 && j == 0 && k == 0) continue;
                             const Vec3 trial = here + share * reach * Vec3(i, j, k).normalized();
                             blocks.set_position(v, trial);
-                            const double w = worst_corner(blocks, star);
+                            const double w =
+                                std::min(others, worst_corner(blocks, star, v, true, worst + 1e-9));
                             if (w > worst + 1e-9) {
                                 worst = w;
                                 best = trial;
                                 any = true;
+                                moved_at[v.index()] = now + 1;
                             }
                         }
                     }
                 }
                 blocks.set_position(v, best);
             }
+            now = std::max(now, moved_at[v.index()]);
         }
         if (!any) break;
     }

@@ -54,6 +54,9 @@ struct ImproveOptions {
     /// untangle, auto: they end as soon as they can after so many seconds and give the best found until then;
     /// 0: no limit. With a limit results may differ from run to run.
     double time_limit = 0.0;
+    /// untangle, auto: the same after so many evaluations of an element, >= 0, but with the same result on
+    /// any machine; 0: no limit. `auto` may do twice as many when it tries a layer.
+    double work_limit = 0.0;
 };
 
 /// State of the mesh after a sweep, a layer or a step.
@@ -90,6 +93,8 @@ struct ImproveReport {
     /// untangle, auto: the sharp edges that were used, as pairs of vertices of the surface (of the input
     /// without one), ascending.
     std::vector<std::array<std::int64_t, 2>> feature_edges;
+    /// Evaluations of an element (untangle, auto).
+    double work = 0.0;
     /// Seconds that each kind of step took, in order of their first use (untangle, auto).
     std::vector<std::pair<std::string, double>> seconds;
     Diagnostics diagnostics;
