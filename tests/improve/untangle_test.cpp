@@ -197,6 +197,24 @@ TEST(Auto, ATimeLimitGivesWhatWasReachedAndNeverLess) {
     EXPECT_THROW((void)hex::improve(mesh, options), hex::Error);
 }
 
+/// What is done is bounded, and what comes out does not depend on the machine.
+TEST(Auto, AWorkLimitBoundsTheWorkAndGivesTheSameBytesForAnyNumberOfThreads) {
+    const HexMesh mesh = shaken_grid(6, 6, 6, 0.35, 4);
+    hex::ImproveOptions options;
+    const auto full = hex::improve(mesh, options);
+    options.work_limit = 0.25 * full.report.work;
+    const auto one = hex::improve(mesh, options, with_thread_count(1));
+    const auto two = hex::improve(mesh, options, with_thread_count(2));
+    EXPECT_TRUE(identical(one.mesh, two.mesh));
+    EXPECT_EQ(one.report.work, two.report.work);
+    EXPECT_GT(one.report.work, 0.0);
+    EXPECT_LT(one.report.work, 0.6 * full.report.work);
+    EXPECT_LE(one.report.after.inverted, one.report.before.inverted);
+    EXPECT_LE(one.report.after.min, full.report.after.min + 0.02);
+    options.work_limit = -1.0;
+    EXPECT_THROW((void)hex::improve(mesh, options), hex::Error);
+}
+
 /// Paper models before improvement, on their surfaces (the published ones: min 0.10 to 0.24 at the end).
 TEST(Untangle, PaperModelsOnTheirSurfaces) {
     HEX_NEEDS_REFERENCE_DATA();

@@ -309,11 +309,13 @@ Json Chain::improve_mesh(hex::HexMesh& mesh) {
         options.features = hex::FeatureSource::angle;
         options.feature_cosine = line_.get<double>("sharp-cosine");
         options.surface = &patches();
+        options.work_limit = MeshChoice::most_work;
         auto result = hex::improve(mesh, options, line_.context());
         line_.log(result.report.diagnostics);
         steps.push_back({{"method", method},
                          {"min_scaled_jacobian", {result.report.before.min, result.report.after.min}},
-                         {"inverted", {result.report.before.inverted, result.report.after.inverted}}});
+                         {"inverted", {result.report.before.inverted, result.report.after.inverted}},
+                         {"work", result.report.work}});
         mesh = std::move(result.mesh);
     }
     return steps;

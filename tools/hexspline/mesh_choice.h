@@ -45,6 +45,9 @@ struct Candidate {
 /// and triangles labelled, not in seconds, so that the result is the same on any machine.
 class MeshChoice {
   public:
+    /// Evaluations of an element that one improvement of one mesh may take (ImproveOptions::work_limit).
+    static constexpr double most_work = 2e7;
+
     /// The mesh becomes the best one if it is better than what there was; returns whether it did. Every mesh
     /// counts as tried.
     bool consider(Candidate candidate);
