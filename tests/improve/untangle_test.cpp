@@ -203,9 +203,9 @@ TEST(Auto, AWorkLimitBoundsTheWorkAndGivesTheSameBytesForAnyNumberOfThreads) {
     hex::ImproveOptions options;
     const auto full = hex::improve(mesh, options);
     options.work_limit = 0.25 * full.report.work;
-    const auto one = hex::improve(mesh, options, with_thread_count(1));
-    const auto two = hex::improve(mesh, options, with_thread_count(2));
-    EXPECT_TRUE(identical(one.mesh, two.mesh));
+    const auto one = hex::improve(mesh, options, hex::test::with_thread_count(1));
+    const auto two = hex::improve(mesh, options, hex::test::with_thread_count(2));
+    EXPECT_TRUE(hex::test::identical(one.mesh, two.mesh));
     EXPECT_EQ(one.report.work, two.report.work);
     EXPECT_GT(one.report.work, 0.0);
     EXPECT_LT(one.report.work, 0.6 * full.report.work);
