@@ -8,7 +8,10 @@
 #include <spline/blending.h>
 #include <spline/hierarchy.h>
 #include <spline/level_mesh.h>
+#include <spline/spline.h>
 #include <spline/subdivision.h>
+
+#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
@@ -188,6 +191,25 @@ inline std::vector<std::size_t> face_points(int face) {
         if (p / stride % 4 == end) points.push_back(p);
     }
     return points;
+}
+
+/// Valence 5, sharp edges by angle; refined: to two levels.
+inline BezierSpline small_spline(bool refined) {
+    SplineOptions options;
+    options.features = hex::FeatureSource::angle;
+    if (refined) options.refinement = {{0, 1, 2}, {0, 9}};
+    return build(hex::test::fan(5, 3), options).spline;
+}
+
+/// The same control points, and rows of all Bezier points of all elements.
+inline void expect_same_extraction(const BezierSpline& a, const BezierSpline& b) {
+    EXPECT_EQ(a.control_points, b.control_points);
+    EXPECT_EQ(a.weights, b.weights);
+    ASSERT_EQ(a.element_count(), b.element_count());
+    for (std::size_t e = 0; e < a.element_count(); ++e) {
+        for (std::size_t p = 0; p < 64; ++p)
+            EXPECT_EQ(as_row(a.rows[a.elements[e][p]]), as_row(b.rows[b.elements[e][p]]));
+    }
 }
 
 /// Largest jump of an active function between a refined element's children and its unrefined neighbours.

@@ -1,7 +1,6 @@
 #include "text_input.h"
 
 #include <hex/base/error.h>
-#include <hex/io/number_text.h>
 #include <spline/io/bext2.h>
 
 #include <algorithm>
@@ -14,87 +13,9 @@ namespace {
 using hex::Error;
 using hex::ErrorKind;
 
-/// Words separated by blanks; lines that start with '$' are comments.
-class Words {
-  public:
-    Words(const std::filesystem::path& path, std::string_view text) : path_(path), text_(text) {}
-
-    bool at_end() {
-        skip();
-        return at_ == text_.size();
-    }
-    bool at_end_of_line() { return !skip_blanks() || text_[at_] == '\n'; }
-
-    std::string_view next(const char* wanted) {
-        if (at_end()) fail(std::string("the file ends where ") + wanted + " should be");
-        const std::size_t begin = at_;
-        while (at_ < text_.size() && !is_blank(text_[at_]) && text_[at_] != '\n') ++at_;
-        return text_.substr(begin, at_ - begin);
-    }
-    std::int64_t integer(const char* wanted) {
-        const std::string_view word = next(wanted);
-        const auto value = hex::io::parse_integer(word);
-        if (!value) fail(quoted(word) + " where " + wanted + " should be");
-        return *value;
-    }
-    std::size_t count(const char* wanted) {
-        const std::int64_t value = integer(wanted);
-        if (value < 0) fail(std::to_string(value) + " where " + wanted + " should be");
-        return static_cast<std::size_t>(value);
-    }
-    /// A 1-based id up to `most`, made 0-based.
-    std::uint32_t id(const char* wanted, std::size_t most) {
-        const std::int64_t value = integer(wanted);
-        if (value < 1 || value > static_cast<std::int64_t>(most))
-            fail(std::string(wanted) + " " + std::to_string(value) + " of " + std::to_string(most) +
-                 " (1-based)");
-        return static_cast<std::uint32_t>(value - 1);
-    }
-    double real(const char* wanted) {
-        const std::string_view word = next(wanted);
-        const auto value = hex::io::parse_double(word);
-        if (!value) fail(quoted(word) + " where " + wanted + " should be");
-        return *value;
-    }
-    /// A header that lies must not make us ask for more memory than the file could fill.
-    std::size_t at_most_left(std::size_t count) const {
-        return std::min(count, (text_.size() - at_) / 2 + 1);
-    }
-
-    [[noreturn]] void fail(const std::string& what, ErrorKind kind = ErrorKind::bad_input,
-                           const std::string& advice = {}) const {
-        throw Error(kind, what, path_.string() + ":" + std::to_string(line_), advice);
-    }
-
-  private:
-    static bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\r'; }
-    bool skip_blanks() {
-        while (at_ < text_.size() && is_blank(text_[at_])) ++at_;
-        return at_ < text_.size();
-    }
-    void skip() {
-        while (skip_blanks()) {
-            const bool line_begins = at_ == 0 || text_[at_ - 1] == '\n';
-            if (text_[at_] == '\n') {
-                ++at_;
-                ++line_;
-            } else if (text_[at_] == '$' && line_begins) {
-                while (at_ < text_.size() && text_[at_] != '\n') ++at_;
-            } else {
-                return;
-            }
-        }
-    }
-
-    const std::filesystem::path& path_;
-    std::string_view text_;
-    std::size_t at_ = 0;
-    std::size_t line_ = 1;
-};
-
 class Reader {
   public:
-    Reader(const std::filesystem::path& path, std::string_view text) : words_(path, text) {}
+    Reader(const std::filesystem::path& path, std::string_view text) : words_(path, text, true) {}
 
     Bext2 read() {
         for (const char* letter : {"B", "E", "X", "T"}) {

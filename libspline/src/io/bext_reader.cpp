@@ -1,7 +1,6 @@
 #include "text_input.h"
 
 #include <hex/base/error.h>
-#include <hex/io/number_text.h>
 #include <spline/io/bext.h>
 #include <spline/io/bext2.h>
 
@@ -12,62 +11,11 @@
 namespace spline::io {
 namespace {
 
-using hex::Error;
 using hex::ErrorKind;
-
-/// Words separated by blanks, with their line.
-class Words {
-  public:
-    Words(const std::filesystem::path& path, std::string_view text) : path_(path), text_(text) {}
-
-    bool at_end() {
-        skip_blanks();
-        return at_ == text_.size();
-    }
-    std::string_view next(const char* wanted) {
-        if (at_end()) fail(std::string("the file ends where ") + wanted + " should be");
-        const std::size_t begin = at_;
-        while (at_ < text_.size() && !is_blank(text_[at_])) ++at_;
-        return text_.substr(begin, at_ - begin);
-    }
-    std::size_t count(const char* wanted) {
-        const std::string_view word = next(wanted);
-        const auto value = hex::io::parse_integer(word);
-        if (!value || *value < 0) fail(quoted(word) + " where " + wanted + " should be");
-        return static_cast<std::size_t>(*value);
-    }
-    double real(const char* wanted) {
-        const std::string_view word = next(wanted);
-        const auto value = hex::io::parse_double(word);
-        if (!value) fail(quoted(word) + " where " + wanted + " should be");
-        return *value;
-    }
-    void keyword(const char* word) {
-        const std::string_view found = next(word);
-        if (found != word) fail(quoted(found) + " where " + quoted(word) + " should be");
-    }
-    std::size_t bytes_left() const { return text_.size() - at_; }
-
-    [[noreturn]] void fail(const std::string& what, ErrorKind kind = ErrorKind::bad_input,
-                           const std::string& advice = {}) const {
-        throw Error(kind, what, path_.string() + ":" + std::to_string(line_), advice);
-    }
-
-  private:
-    static bool is_blank(char c) { return c == ' ' || c == '\n' || c == '\t' || c == '\r'; }
-    void skip_blanks() {
-        for (; at_ < text_.size() && is_blank(text_[at_]); ++at_) line_ += text_[at_] == '\n';
-    }
-
-    const std::filesystem::path& path_;
-    std::string_view text_;
-    std::size_t at_ = 0;
-    std::size_t line_ = 1;
-};
 
 class Reader {
   public:
-    Reader(const std::filesystem::path& path, std::string_view text) : words_(path, text) {}
+    Reader(const std::filesystem::path& path, std::string_view text) : words_(path, text, false) {}
 
     BezierSpline read() {
         read_head();
