@@ -2,9 +2,8 @@
 /// Open CASCADE behind a plain interface: cad_shape.cpp is the only file that includes its headers.
 #pragma once
 
-#include <hex/io/mesh_data.h>
-
 #include <hex/io/cad_file.h>
+#include <hex/io/mesh_data.h>
 
 #include <array>
 #include <cstdint>
