@@ -24,8 +24,8 @@ constexpr double last_target = 8000;
 constexpr double before_improvement = 1.25;
 /// Where none does, the coarsest mesh that is no farther apart than this share of the nearest.
 constexpr double nearly_as_near = 1.15;
-/// Blocks that even the finest mesh does not bring nearer than this are given up.
-constexpr double hopeless_distance = 5.0;
+/// Blocks that even the finest mesh does not bring nearer than this are given up: twice the wished distance.
+constexpr double hopeless_distance = 2.0 * wished_distance;
 /// A finer mesh is worth its price if it comes nearer by this factor.
 constexpr double worth_refining = 0.95;
 /// How often a finer mesh of the same blocks is tried, and how often if it is not the distance that lacks.
@@ -119,9 +119,11 @@ Chain::Mapped Chain::as_fine_as_needed() {
         if (meshes.back().apart <= before_improvement * wished_distance) return std::move(meshes.back());
         nearest = std::min(nearest, meshes.back().apart);
     }
-    if (nearest > hopeless_distance && is_searching())
+    if (nearest > hopeless_distance && is_searching()) {
+        for (const Mapped& mapped : meshes) choice_.count_mapped_in_vain(mapped.result.mesh.cell_count());
         throw RouteClosed{"the mapped mesh stays " + std::to_string(nearest) +
                           " % of the diagonal off the surface"};
+    }
     return std::move(*std::find_if(meshes.begin(), meshes.end(), [&](const Mapped& mapped) {
         return mapped.apart <= nearly_as_near * nearest;
     }));

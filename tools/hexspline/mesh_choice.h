@@ -56,6 +56,8 @@ class MeshChoice {
     const std::optional<Candidate>& best() const { return best_; }
 
     void count_labelled(std::size_t triangles) { labelled_ += triangles; }
+    /// Hexahedra that were mapped, but not worth improving, cost a quarter.
+    void count_mapped_in_vain(std::size_t hexahedra) { improved_ += hexahedra / 4; }
     /// Whether so many triangles may be labelled anew.
     bool may_label(std::size_t triangles) const;
     /// Whether one more mesh of so many hexahedra may be improved. The first one may have any size.
