@@ -175,6 +175,17 @@ void add_pipeline(std::vector<Stage>& all, const hex::Context& context, const st
     }
 }
 
+/// The cost of an element should not depend on how many there are.
+void add_spline_curve(std::vector<Stage>& all, const hex::Context& context) {
+    for (const int n : {10, 22, 46, 79}) {
+        all.push_back(
+            {"spline", "shuffled grid " + std::to_string(n) + "^3", [=] {
+                 const hex::HexMesh mesh = shuffled_grid_mesh(n);
+                 return Work{mesh.cell_count(), seconds_of([&] { spline::build(mesh, {}, context); })};
+             }});
+    }
+}
+
 void add_spline(std::vector<Stage>& all, const hex::Context& context, const std::string& part) {
     for (const int level : {2, 3}) {
         const std::string input = part + " -s " + std::to_string(level);
@@ -208,6 +219,7 @@ std::vector<Stage> stages(int threads, int grid) {
     add_io(all, std::max(1, grid / 2));
     for (const std::string part : {"rod", "bracket", "blob"}) add_pipeline(all, context, part);
     add_spline(all, context, "rod");
+    add_spline_curve(all, context);
     return all;
 }
 
