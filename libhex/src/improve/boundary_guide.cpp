@@ -1,5 +1,6 @@
 #include "improve/boundary_guide.h"
 
+#include "improve/components.h"
 #include "improve/curve_matching.h"
 
 #include <hex/base/error.h>
@@ -13,31 +14,6 @@ namespace hex::improving {
 namespace {
 
 constexpr std::uint32_t none = ~std::uint32_t{0};
-
-/// Connected components under `join`, numbered by their first member.
-class Components {
-  public:
-    explicit Components(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
-    void join(std::uint32_t a, std::uint32_t b) {
-        a = root(a);
-        b = root(b);
-        parent_[std::max(a, b)] = std::min(a, b);
-    }
-    std::vector<std::uint32_t> numbers(std::uint32_t& count) {
-        std::vector<std::uint32_t> number(parent_.size());
-        count = 0;
-        for (std::uint32_t i = 0; i < parent_.size(); ++i)
-            number[i] = root(i) == i ? count++ : number[root(i)];
-        return number;
-    }
-
-  private:
-    std::uint32_t root(std::uint32_t i) {
-        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-        return i;
-    }
-    std::vector<std::uint32_t> parent_;
-};
 
 struct Region {
     std::vector<std::uint32_t> triangles;  // of the surface
@@ -85,26 +61,24 @@ struct BoundaryGuide::Parts {
                 }
                 fine.push_back(point(i + 1));
             }
-            std::vector<SearchKernel::Segment_3> segments;
-            for (std::size_t i = 0; i + 1 < fine.size(); ++i)
-                segments.emplace_back(to_search_point(fine[i]), to_search_point(fine[i + 1]));
+            std::vector<SearchSegment> segments;
+            for (std::size_t i = 0; i + 1 < fine.size(); ++i) segments.push_back({fine[i], fine[i + 1]});
             fine_points.push_back(std::move(fine));
             fine_search.push_back(std::make_unique<SegmentSearch>(std::move(segments)));
         }
     }
 
-    SearchKernel::Triangle_3 triangle(std::uint32_t t) const {
+    SearchTriangle triangle(std::uint32_t t) const {
         const auto& v = surface.triangles[t];
-        return {to_search_point(surface.points[v[0]]), to_search_point(surface.points[v[1]]),
-                to_search_point(surface.points[v[2]])};
+        return {surface.points[v[0]], surface.points[v[1]], surface.points[v[2]]};
     }
 
     void make_curve_search() {
         for (const SurfaceCurve& curve : curves) {
-            std::vector<SearchKernel::Segment_3> segments;
+            std::vector<SearchSegment> segments;
             for (std::size_t i = 0; i + 1 < curve.vertices.size(); ++i)
-                segments.emplace_back(to_search_point(surface.points[curve.vertices[i]]),
-                                      to_search_point(surface.points[curve.vertices[i + 1]]));
+                segments.push_back(
+                    {surface.points[curve.vertices[i]], surface.points[curve.vertices[i + 1]]});
             curve_search.push_back(std::make_unique<SegmentSearch>(std::move(segments)));
         }
     }
@@ -122,9 +96,9 @@ struct BoundaryGuide::Parts {
         regions.resize(count);
         for (std::uint32_t t = 0; t < region.size(); ++t) regions[region[t]].triangles.push_back(t);
         for (Region& r : regions) {
-            std::vector<SearchKernel::Triangle_3> items;
+            std::vector<SearchTriangle> items;
             for (const std::uint32_t t : r.triangles) items.push_back(triangle(t));
-            r.search = std::make_unique<TriangleSearch>(std::move(items));
+            r.search = std::make_unique<TriangleSearch>(items);
         }
         return region;
     }
@@ -185,7 +159,7 @@ BoundaryGuide::BoundaryGuide(const HexMesh& mesh, const EdgeTable& edges, const 
 
     std::vector<std::uint32_t> all(parts_->surface.triangles.size());
     std::iota(all.begin(), all.end(), 0U);
-    std::vector<SearchKernel::Triangle_3> triangles;
+    std::vector<SearchTriangle> triangles;
     for (const std::uint32_t t : all) triangles.push_back(parts_->triangle(t));
     const TriangleSearch whole(std::move(triangles));
     const std::vector<std::uint32_t> region_of = parts_->make_regions(cut);

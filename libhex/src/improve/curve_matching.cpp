@@ -3,6 +3,7 @@
 #include <CGAL/Orthogonal_k_neighbor_search.h>
 #include <CGAL/Search_traits_3.h>
 #include <CGAL/Search_traits_adapter.h>
+#include <CGAL/Simple_cartesian.h>
 #include <CGAL/property_map.h>
 
 #include <algorithm>
@@ -27,11 +28,16 @@ constexpr double longest_path = 1.6;
 /// Candidates for the vertex that stands for a point of a curve.
 constexpr unsigned candidates = 12;
 
-using PointWithVertex = std::pair<SearchKernel::Point_3, std::uint32_t>;
+using Kernel = CGAL::Simple_cartesian<double>;
+using PointWithVertex = std::pair<Kernel::Point_3, std::uint32_t>;
 using PointTraits =
     CGAL::Search_traits_adapter<PointWithVertex, CGAL::First_of_pair_property_map<PointWithVertex>,
-                                CGAL::Search_traits_3<SearchKernel>>;
+                                CGAL::Search_traits_3<Kernel>>;
 using NeighbourSearch = CGAL::Orthogonal_k_neighbor_search<PointTraits>;
+
+Kernel::Point_3 to_cgal(const Vec3& p) {
+    return {p.x(), p.y(), p.z()};
+}
 
 class Matcher {
   public:
@@ -40,7 +46,7 @@ class Matcher {
         : mesh_(mesh), edges_(edges), boundary_(boundary), surface_(surface), taken_(mesh.vertex_count(), 0) {
         std::vector<PointWithVertex> points;
         for (const VertexId v : boundary.boundary_vertices)
-            points.emplace_back(to_search_point(mesh.position(v)), v.value());
+            points.emplace_back(to_cgal(mesh.position(v)), v.value());
         tree_.insert(points.begin(), points.end());
         tree_.build();
     }
@@ -84,7 +90,7 @@ class Matcher {
     void reserve_end(std::uint32_t surface_vertex) {
         if (ends_.contains(surface_vertex)) return;
         const Vec3& p = surface_.points[surface_vertex];
-        NeighbourSearch found(tree_, to_search_point(p), 1);
+        NeighbourSearch found(tree_, to_cgal(p), 1);
         const VertexId v(static_cast<std::size_t>(found.begin()->first.second));
         const bool close = (mesh_.position(v) - p).norm() <= farthest * edge_length(v);
         const bool fresh = close && taken_[v.index()] == 0;
@@ -160,7 +166,7 @@ class Matcher {
 
     /// Among the vertices near p the one nearest to the curve.
     VertexId nearest_on_curve(const Vec3& p, const SegmentSearch& search) const {
-        NeighbourSearch found(tree_, to_search_point(p), candidates);
+        NeighbourSearch found(tree_, to_cgal(p), candidates);
         VertexId best;
         double best_distance = 0.0;
         for (const auto& [point, squared] : found) {

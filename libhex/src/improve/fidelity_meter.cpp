@@ -1,6 +1,6 @@
 #include "improve/fidelity_meter.h"
 
-#include "improve/search_set.h"
+#include "surface/search_set.h"
 
 #include <hex/base/parallel.h>
 
@@ -33,11 +33,10 @@ struct FidelityMeter::Trees {
 FidelityMeter::FidelityMeter(const EdgeTable& edges, const BoundaryQuads& boundary,
                              const GuideSurface& surface, double sharp_cosine)
     : edges_(edges), boundary_(boundary), trees_(std::make_unique<Trees>()) {
-    std::vector<SearchKernel::Triangle_3> triangles;
+    std::vector<SearchTriangle> triangles;
     std::vector<char> used(surface.points.size(), 0);
     for (const auto& t : surface.triangles) {
-        triangles.emplace_back(to_search_point(surface.points[t[0]]), to_search_point(surface.points[t[1]]),
-                               to_search_point(surface.points[t[2]]));
+        triangles.push_back({surface.points[t[0]], surface.points[t[1]], surface.points[t[2]]});
         for (const std::uint32_t v : t) used[v] = 1;
         surface_samples_.emplace_back((surface.points[t[0]] + surface.points[t[1]] + surface.points[t[2]]) /
                                       3.0);
@@ -57,12 +56,12 @@ FidelityMeter::FidelityMeter(const EdgeTable& edges, const BoundaryQuads& bounda
 FidelityMeter::~FidelityMeter() = default;
 
 Fidelity FidelityMeter::measure(std::span<const Vec3> positions) const {
-    std::vector<SearchKernel::Triangle_3> triangles;
+    std::vector<SearchTriangle> triangles;
     std::vector<Vec3> own;
-    const auto at = [&](VertexId v) { return to_search_point(positions[v.index()]); };
+    const auto at = [&](VertexId v) -> const Vec3& { return positions[v.index()]; };
     for (const auto& quad : boundary_.vertices) {
-        triangles.emplace_back(at(quad[0]), at(quad[1]), at(quad[2]));
-        triangles.emplace_back(at(quad[0]), at(quad[2]), at(quad[3]));
+        triangles.push_back({at(quad[0]), at(quad[1]), at(quad[2])});
+        triangles.push_back({at(quad[0]), at(quad[2]), at(quad[3])});
         own.emplace_back(0.25 * (positions[quad[0].index()] + positions[quad[1].index()] +
                                  positions[quad[2].index()] + positions[quad[3].index()]));
     }
@@ -72,9 +71,9 @@ Fidelity FidelityMeter::measure(std::span<const Vec3> positions) const {
     found.distance =
         std::max(largest_distance(*trees_->surface, own), largest_distance(boundary, surface_samples_));
     if (feature_samples_.empty()) return found;
-    std::vector<SearchKernel::Segment_3> segments;
+    std::vector<SearchSegment> segments;
     for (std::size_t e = 0; e < edges_.size(); ++e)
-        if (edges_.boundary[e]) segments.emplace_back(at(edges_.vertices[e][0]), at(edges_.vertices[e][1]));
+        if (edges_.boundary[e]) segments.push_back({at(edges_.vertices[e][0]), at(edges_.vertices[e][1])});
     const SegmentSearch lines(std::move(segments));
     found.features =
         parallel_reduce(

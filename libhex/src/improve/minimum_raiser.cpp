@@ -240,14 +240,14 @@ void MinimumRaiser::finish() {
         sliding_.use_smooth_curves(false);
         sliding_.attach();
         record("attach", true);
-        if (now_.inverted > 0) ascend();
+        if (now_.inverted > 0) ascend(aim());
         raise();
     }
     if (!candidates_.empty() && most_slack > 0.0 && candidates_.front().record.min < good_enough) {
         sliding_.set_positions(candidates_.front().positions);
         sliding_.set_slack(most_slack);
         sliding_.attach();
-        if (!solved()) ascend();
+        if (!solved()) ascend(aim());
         raise();
     }
     if (!candidates_.empty()) {
@@ -262,24 +262,31 @@ void MinimumRaiser::raise_mean() {
     share_of_work_ = share_of_mean;
     if (candidates_.front().record.inverted > 0 || is_over()) return;
     const Candidate start = candidates_.front();
-    sliding_.set_positions(start.positions);
-    QualityMeshEnergy mean(sliding_.boxes());
-    mean.floor = start.record.min - minimum_for_mean;
-    mean.mean_weight = 1.0;
-    mean.barrier_weight = QualityMean().barrier_weight;
-    DescentOptions descent;
-    descent.most_iterations = 100;
-    descent.satisfied = [&] { return is_over(); };
-    (void)descend(sliding_, mean, descent, context_);
-    record("mean", false);
     const double cost =
         start.record.min - minimum_for_mean >= good_enough ? minimum_for_mean : bad_minimum_for_mean;
-    if (now_.min < start.record.min - cost) ascend();
     const double least = std::max(start.record.min - cost, input_.inverted == 0 ? input_.min : 0.0);
-    if (now_.min <= least || now_.mean <= start.record.mean || deviation() > allowed_deviation()) return;
-    if (candidates_.size() == most_candidates) candidates_.pop_back();
-    candidates_.insert(candidates_.begin(),
-                       {now_, {sliding_.positions().begin(), sliding_.positions().end()}, std::nullopt});
+    // The lower the floor, the higher the mean, and the ascent afterwards costs it little; but it may not
+    // come all the way back.
+    for (const double gap : {0.12, minimum_for_mean}) {
+        if (is_over()) return;
+        sliding_.set_positions(start.positions);
+        QualityMeshEnergy mean(sliding_.boxes());
+        mean.floor = start.record.min - gap;
+        mean.mean_weight = 1.0;
+        mean.barrier_weight = QualityMean().barrier_weight;
+        DescentOptions descent;
+        descent.most_iterations = 100;
+        descent.satisfied = [&] { return is_over(); };
+        (void)descend(sliding_, mean, descent, context_);
+        record("mean", false);
+        if (now_.min < least) ascend(std::min(aim(), 0.5 * (least + start.record.min)));
+        if (now_.min <= least || now_.mean <= start.record.mean || deviation() > allowed_deviation())
+            continue;
+        if (candidates_.size() == most_candidates) candidates_.pop_back();
+        candidates_.insert(candidates_.begin(),
+                           {now_, {sliding_.positions().begin(), sliding_.positions().end()}, std::nullopt});
+        return;
+    }
 }
 
 void MinimumRaiser::choose() {
@@ -341,7 +348,7 @@ void MinimumRaiser::untangle() {
         const DescentResult result = descend(sliding_, mesh_energy, descent, context_);
         det = smallest_determinant(sliding_.mesh(), boxes);
         record("untangle", exact_);
-        if (now_.inverted > 0 && now_.inverted < 1 + sliding_.mesh().cell_count() / 200) ascend();
+        if (now_.inverted > 0 && now_.inverted < 1 + sliding_.mesh().cell_count() / 200) ascend(aim());
         if (now_.inverted == 0) break;
         if (result.iterations == 0 && k > 10) break;
         // The paper's rule (section 4): epsilon falls so fast that the energy still goes down.
@@ -368,13 +375,13 @@ void MinimumRaiser::untangle() {
 }
 
 void MinimumRaiser::raise() {
-    ascend();
+    ascend(aim());
     constexpr double first_gap = 0.3;
     for (const double gap : {first_gap, 0.1, 0.03}) {
         if (reached_target() || is_over()) return;
         const ImproveRecord before = now_;
         lower_barrier(gap);
-        ascend();
+        ascend(aim());
         const bool gained = now_.inverted < before.inverted || now_.min >= before.min + worth_a_round;
         if (!gained && gap < first_gap) return;
     }
@@ -396,9 +403,9 @@ void MinimumRaiser::lower_barrier(double gap) {
     }
 }
 
-void MinimumRaiser::ascend() {
+void MinimumRaiser::ascend(double target) {
     AscentOptions options;
-    options.target = aim();
+    options.target = target;
     // What this gives for its price no descent does: it may go on a little longer than they.
     options.satisfied = [&] {
         return deadline_.passed() ||

@@ -86,7 +86,8 @@ class MinimumRaiser {
     void raise();
     /// Barrier descents with floors `gap` below the minimum, while they help.
     void lower_barrier(double gap);
-    void ascend();
+    /// The star ascent, until the minimum is `target`.
+    void ascend(double target);
     void raise_mean();
     /// The best candidate that is within the limits; otherwise the one that is least beyond them.
     void choose();

@@ -1,6 +1,7 @@
 #include "improve/shape_keeper.h"
 
-#include "improve/search_set.h"
+#include "surface/nearest_point.h"
+#include "surface/search_set.h"
 #include "volume/counting_rows.h"
 
 #include <hex/base/parallel.h>
@@ -24,50 +25,6 @@ constexpr double hinge_start = 0.6;
 constexpr double flat_cosine = 0.9995;
 constexpr int most_steps = 20;
 constexpr std::size_t grain = 64;
-
-struct Nearest {
-    std::array<double, 3> shares;
-    double squared;
-};
-
-/// Closest point of a triangle in barycentric coordinates (Ericson, Real-Time Collision Detection, 5.1.5).
-Nearest nearest_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
-    const auto at = [&](double s, double t, double u) {
-        return Nearest{{s, t, u}, (s * a + t * b + u * c - p).squaredNorm()};
-    };
-    const Vec3 ab = b - a;
-    const Vec3 ac = c - a;
-    const Vec3 ap = p - a;
-    const double d1 = ab.dot(ap);
-    const double d2 = ac.dot(ap);
-    if (d1 <= 0.0 && d2 <= 0.0) return at(1.0, 0.0, 0.0);
-    const Vec3 bp = p - b;
-    const double d3 = ab.dot(bp);
-    const double d4 = ac.dot(bp);
-    if (d3 >= 0.0 && d4 <= d3) return at(0.0, 1.0, 0.0);
-    const double vc = d1 * d4 - d3 * d2;
-    if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0) return at(1.0 - d1 / (d1 - d3), d1 / (d1 - d3), 0.0);
-    const Vec3 cp = p - c;
-    const double d5 = ab.dot(cp);
-    const double d6 = ac.dot(cp);
-    if (d6 >= 0.0 && d5 <= d6) return at(0.0, 0.0, 1.0);
-    const double vb = d5 * d2 - d1 * d6;
-    if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0) return at(1.0 - d2 / (d2 - d6), 0.0, d2 / (d2 - d6));
-    const double va = d3 * d6 - d5 * d4;
-    if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0) {
-        const double w = (d4 - d3) / ((d4 - d3) + (d5 - d6));
-        return at(0.0, 1.0 - w, w);
-    }
-    const double sum = va + vb + vc;
-    return at(va / sum, vb / sum, vc / sum);
-}
-
-Nearest nearest_on_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
-    const Vec3 d = b - a;
-    const double square = d.squaredNorm();
-    const double t = square > 0.0 ? std::clamp((p - a).dot(d) / square, 0.0, 1.0) : 0.0;
-    return {{1.0 - t, t, 0.0}, (a + t * d - p).squaredNorm()};
-}
 
 }  // namespace
 
@@ -146,11 +103,11 @@ void ShapeKeeper::add_surface_points(const GuideSurface& surface, double spacing
     // No more than are needed on surfaces much finer than the mesh.
     const std::size_t stride = 1 + places.size() / (12 * boundary_.size());
 
-    std::vector<SearchKernel::Triangle_3> triangles;
-    const auto at = [&](VertexId v) { return to_search_point(positions[v.index()]); };
+    std::vector<SearchTriangle> triangles;
+    const auto at = [&](VertexId v) -> const Vec3& { return positions[v.index()]; };
     for (const auto& quad : boundary_.vertices) {
-        triangles.emplace_back(at(quad[0]), at(quad[1]), at(quad[2]));
-        triangles.emplace_back(at(quad[0]), at(quad[2]), at(quad[3]));
+        triangles.push_back({at(quad[0]), at(quad[1]), at(quad[2])});
+        triangles.push_back({at(quad[0]), at(quad[2]), at(quad[3])});
     }
     const TriangleSearch search(std::move(triangles));
     const std::vector<double> sizes = quad_sizes(positions);
@@ -168,12 +125,12 @@ void ShapeKeeper::add_surface_points(const GuideSurface& surface, double spacing
 
 void ShapeKeeper::add_sharp_points(const GuideSurface& surface, double sharp_cosine,
                                    std::span<const Vec3> positions) {
-    std::vector<SearchKernel::Segment_3> segments;
+    std::vector<SearchSegment> segments;
     std::vector<std::uint32_t> numbers;
     for (std::uint32_t e = 0; e < edges_.size(); ++e) {
         if (!edges_.boundary[e]) continue;
-        segments.emplace_back(to_search_point(positions[edges_.vertices[e][0].index()]),
-                              to_search_point(positions[edges_.vertices[e][1].index()]));
+        segments.push_back(
+            {positions[edges_.vertices[e][0].index()], positions[edges_.vertices[e][1].index()]});
         numbers.push_back(e);
     }
     const SegmentSearch search(std::move(segments));
@@ -209,7 +166,8 @@ template <class Positions>
 ShapeKeeper::Foot ShapeKeeper::foot(const Point& point, const Positions& at) const {
     Foot best;
     best.squared = std::numeric_limits<double>::infinity();
-    const auto take = [&](const Nearest& nearest, VertexId a, VertexId b, VertexId c, std::uint32_t home) {
+    const auto take = [&](const NearestPoint& nearest, VertexId a, VertexId b, VertexId c,
+                          std::uint32_t home) {
         if (nearest.squared >= best.squared) return;
         best.squared = nearest.squared;
         best.vertices = {a, b, c};
@@ -224,10 +182,16 @@ ShapeKeeper::Foot ShapeKeeper::foot(const Point& point, const Positions& at) con
     } else {
         for (const std::uint32_t q : near_quads_[point.home]) {
             const auto& v = boundary_.vertices[q];
-            const Vec3 a = at(v[0]);
-            const Vec3 c = at(v[2]);
-            take(nearest_on_triangle(point.place, a, at(v[1]), c), v[0], v[1], v[2], q);
-            take(nearest_on_triangle(point.place, a, c, at(v[3])), v[0], v[2], v[3], q);
+            const Vec3& a = at(v[0]);
+            const Vec3& b = at(v[1]);
+            const Vec3& c = at(v[2]);
+            const Vec3& d = at(v[3]);
+            const Vec3 low = a.cwiseMin(b).cwiseMin(c.cwiseMin(d));
+            const Vec3 high = a.cwiseMax(b).cwiseMax(c.cwiseMax(d));
+            const Vec3 outside = (low - point.place).cwiseMax(point.place - high).cwiseMax(0.0);
+            if (outside.squaredNorm() >= best.squared) continue;
+            take(nearest_on_triangle(point.place, a, b, c), v[0], v[1], v[2], q);
+            take(nearest_on_triangle(point.place, a, c, d), v[0], v[2], v[3], q);
         }
     }
     best.off = point.place;

@@ -48,6 +48,7 @@ SlidingMesh::SlidingMesh(const HexMesh& mesh, const EdgeTable& edges, const Boun
                                                   })),
       axis_(mesh.vertex_count(), Vec3::Zero()),
       item_(mesh.vertex_count(), 0),
+      foot_(mesh.vertex_count(), Vec3::Zero()),
       cell_gradient_(mesh.cell_count()),
       cell_value_(mesh.cell_count()) {}
 
@@ -113,24 +114,22 @@ BoundaryGuide::Place SlidingMesh::on_part(VertexId v, const Vec3& p) const {
     return smooth_ ? guide_->nearest_smooth(v, p, item_[v.index()]) : guide_->nearest(v, p, item_[v.index()]);
 }
 
-BoundaryGuide::Place SlidingMesh::place(VertexId v, const Vec3& p) const {
-    BoundaryGuide::Place place = on_part(v, p);
+SlidingMesh::Spot SlidingMesh::place(VertexId v, const Vec3& p) const {
+    const BoundaryGuide::Place place = on_part(v, p);
+    Spot spot{place, place.point};
     if (slack_ > 0.0 && guide_->freedom(v) != Freedom::corner) {
-        const Vec3 off = p - place.point;
+        const Vec3 off = p - spot.foot;
         const double distance = off.norm();
-        if (distance <= slack_) {
-            place.point = p;
-        } else {
-            place.point += slack_ / distance * off;
-        }
+        spot.point = distance <= slack_ ? p : Vec3(spot.foot + slack_ / distance * off);
     }
-    return place;
+    return spot;
 }
 
-void SlidingMesh::move(VertexId v, const BoundaryGuide::Place& place) {
-    mesh_.set_position(v, place.point);
-    axis_[v.index()] = place.axis;
-    item_[v.index()] = place.item;
+void SlidingMesh::move(VertexId v, const Spot& spot) {
+    mesh_.set_position(v, spot.point);
+    axis_[v.index()] = spot.axis;
+    item_[v.index()] = spot.item;
+    foot_[v.index()] = spot.foot;
 }
 
 void SlidingMesh::make_tangential(std::vector<Vec3>& vectors, double sign) const {
@@ -139,7 +138,7 @@ void SlidingMesh::make_tangential(std::vector<Vec3>& vectors, double sign) const
         Vec3& d = vectors[v.index()];
         const Vec3& axis = axis_[v.index()];
         if (slack_ > 0.0 && guide_ != nullptr && guide_->freedom(v) != Freedom::corner) {
-            const Vec3 off = mesh_.position(v) - on_part(v, mesh_.position(v)).point;
+            const Vec3 off = mesh_.position(v) - foot_[v.index()];
             const double distance = off.norm();
             if (distance < 0.999 * slack_) return;
             const double outwards = sign * d.dot(off) / distance;

@@ -57,12 +57,16 @@ class SlidingMesh {
     /// Drops the part of each vector that leaves the surface, and everything where vertices are fixed. With
     /// slack, only what leaves the slack; `sign` is -1 for gradients, whose opposite is where vertices go.
     void make_tangential(std::vector<Vec3>& vectors, double sign) const;
+    /// Where a boundary vertex goes, and the nearest point of its part: the same without slack.
+    struct Spot : BoundaryGuide::Place {
+        Vec3 foot;
+    };
     /// Where a boundary vertex that is wanted at p goes.
-    BoundaryGuide::Place place(VertexId v, const Vec3& p) const;
+    Spot place(VertexId v, const Vec3& p) const;
     /// Moves by `step` x `direction` from `origin`, boundary vertices to the nearest place of their part.
     void retract(std::span<const Vec3> origin, std::span<const Vec3> direction, double step);
     /// Moves one vertex to a place that `place` gave.
-    void move(VertexId v, const BoundaryGuide::Place& place);
+    void move(VertexId v, const Spot& spot);
     const BoundaryGuide* guide() const { return guide_; }
     bool on_boundary(VertexId v) const { return boundary_.contains(v); }
     /// Unit normal of the region, direction of the curve where a boundary vertex is.
@@ -88,6 +92,7 @@ class SlidingMesh {
     CompressedRows<std::uint32_t> corners_at_;  // 8 cell + corner, of each vertex
     std::vector<Vec3> axis_;                    // normal or direction of each boundary vertex's place
     std::vector<std::uint32_t> item_;
+    std::vector<Vec3> foot_;
     mutable std::vector<std::array<Vec3, 8>> cell_gradient_;
     mutable std::vector<double> cell_value_;
     mutable double work_ = 0.0;

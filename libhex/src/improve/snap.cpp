@@ -244,7 +244,7 @@ class Snapper {
             const Vec3 p = share == 1.0 ? there : Vec3(here + share * (there - here));
             const double then = star.quality(p).min;
             if (then < now && then < worth_keeping) continue;
-            mesh_.move(v, {p, Vec3::Zero(), 0});
+            mesh_.move(v, {{p, Vec3::Zero(), 0}, p});
             return true;
         }
         return false;

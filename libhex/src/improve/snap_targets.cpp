@@ -1,7 +1,7 @@
 #include "improve/snap_targets.h"
 
-#include "improve/search_set.h"
 #include "improve/surface_curves.h"
+#include "surface/search_set.h"
 
 #include <hex/base/error.h>
 #include <hex/base/parallel.h>
@@ -96,11 +96,10 @@ struct SnapTargets::State {
 
     void fill(Bin& bin) const {
         if (bin.triangles.empty()) return;
-        std::vector<SearchKernel::Triangle_3> items;
+        std::vector<SearchTriangle> items;
         for (const std::uint32_t t : bin.triangles) {
             const auto& v = surface.triangles[t];
-            items.emplace_back(to_search_point(surface.points[v[0]]), to_search_point(surface.points[v[1]]),
-                               to_search_point(surface.points[v[2]]));
+            items.push_back({surface.points[v[0]], surface.points[v[1]], surface.points[v[2]]});
         }
         bin.search = std::make_unique<TriangleSearch>(std::move(items));
     }

@@ -40,11 +40,11 @@ class StarAscent {
         if (freedom == Freedom::corner) return false;
         const bool kept = bound && mesh_.keeper() != nullptr && now >= careless;
         const double cost = kept ? mesh_.keeper()->around(v, here, mesh_.positions()) : 0.0;
-        BoundaryGuide::Place best_place{here, Vec3::Zero(), 0};
+        const auto free_spot = [](const Vec3& p) { return SlidingMesh::Spot{{p, Vec3::Zero(), 0}, p}; };
+        SlidingMesh::Spot best_place = free_spot(here);
         bool found = false;
         const auto attempt = [&](const Vec3& p) {
-            const BoundaryGuide::Place place =
-                bound ? mesh_.place(v, p) : BoundaryGuide::Place{p, Vec3::Zero(), 0};
+            const SlidingMesh::Spot place = bound ? mesh_.place(v, p) : free_spot(p);
             const double quality = star_minimum(v, place.point, best);
             if (!(quality > best)) return;
             if (kept &&

@@ -44,8 +44,8 @@ double mean(std::span<const double> values) {
     return values.empty() ? 0.0 : sum / static_cast<double>(values.size());
 }
 
-SearchKernel::Triangle_3 triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
-    return {to_search_point(a), to_search_point(b), to_search_point(c)};
+SearchTriangle triangle(const Vec3& a, const Vec3& b, const Vec3& c) {
+    return {a, b, c};
 }
 
 /// Flat to a point or a line: nothing that its neighbours do not cover, and no plane to project on.
@@ -56,10 +56,9 @@ bool has_area(const Vec3& a, const Vec3& b, const Vec3& c) {
 }  // namespace
 
 SurfaceDistance surface_distance(const HexMesh& mesh, const TriangleMesh& surface, const Context& context) {
-    std::vector<SearchKernel::Triangle_3> surface_triangles, boundary_triangles;
+    std::vector<SearchTriangle> surface_triangles, boundary_triangles;
     std::vector<Vec3> surface_points, boundary_points;
-    const auto add = [](std::vector<SearchKernel::Triangle_3>& list, const Vec3& a, const Vec3& b,
-                        const Vec3& c) {
+    const auto add = [](std::vector<SearchTriangle>& list, const Vec3& a, const Vec3& b, const Vec3& c) {
         if (has_area(a, b, c)) list.push_back(triangle(a, b, c));
     };
     for (const auto v : surface.vertices())

@@ -18,12 +18,12 @@ struct ClosestPoint::State {
 ClosestPoint::ClosestPoint(std::span<const std::array<Vec3, 3>> triangles)
     : state_(std::make_unique<State>()) {
     state_->triangles.assign(triangles.begin(), triangles.end());
-    std::vector<SearchKernel::Triangle_3> items;
+    std::vector<SearchTriangle> items;
     for (std::size_t t = 0; t < triangles.size(); ++t) {
         const auto& [a, b, c] = triangles[t];
         state_->place.push_back(static_cast<std::uint32_t>(items.size()));
         if (!((b - a).cross(c - a).squaredNorm() > 0.0)) continue;
-        items.emplace_back(to_search_point(a), to_search_point(b), to_search_point(c));
+        items.push_back({a, b, c});
         state_->number.push_back(static_cast<std::uint32_t>(t));
     }
     if (items.empty()) throw Error(ErrorKind::bad_input, "the surface has no triangle with an area");
@@ -63,10 +63,10 @@ struct ClosestOnSegments::State {
 
 ClosestOnSegments::ClosestOnSegments(std::span<const std::array<Vec3, 2>> segments)
     : state_(std::make_unique<State>()) {
-    std::vector<SearchKernel::Segment_3> items;
+    std::vector<SearchSegment> items;
     for (std::size_t s = 0; s < segments.size(); ++s) {
         if (segments[s][0] == segments[s][1]) continue;
-        items.emplace_back(to_search_point(segments[s][0]), to_search_point(segments[s][1]));
+        items.push_back(segments[s]);
         state_->number.push_back(static_cast<std::uint32_t>(s));
     }
     if (!items.empty()) state_->search.emplace(std::move(items));
