@@ -55,6 +55,18 @@ TEST(Registry, ANameCanBeTakenOnce) {
     EXPECT_EQ(registry.make("dog")->speak(), "wuff");
 }
 
+TEST(Registry, AFactoryThatGivesNothingIsAnError) {
+    Registry<Speaker> registry("speak");
+    registry.add("mute", "gives no object", [] { return std::unique_ptr<Speaker>(); });
+    try {
+        registry.make("mute");
+        FAIL() << "a null pointer was returned";
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::no_result);
+        EXPECT_NE(std::string(error.what()).find("mute"), std::string::npos);
+    }
+}
+
 TEST(Registry, ListsMethodsByNameWithWhereTheyComeFrom) {
     Registry<Speaker> registry("speak");
     const Register<Speaker, Dog> dog(registry, "dog", "barks");

@@ -44,7 +44,8 @@ class Registry {
             throw Error(ErrorKind::usage, "stage '" + stage_ + "' already has a method '" + name + "'");
     }
 
-    /// Makes the method of that name. Throws Error{usage}, listing the known names, when there is none.
+    /// Makes the method of that name. Throws Error{usage}, listing the known names, when there is none, and
+    /// Error{no_result} when its factory (a plug-in's, say) gives nothing.
     std::unique_ptr<Interface> make(const std::string& name) const {
         const std::lock_guard lock(mutex_);
         const auto found = methods_.find(name);
@@ -54,7 +55,9 @@ class Registry {
             throw Error(ErrorKind::usage, "stage '" + stage_ + "' has no method '" + name + "'", {},
                         "known methods: " + known);
         }
-        return found->second.factory();
+        std::unique_ptr<Interface> made = found->second.factory();
+        if (!made) throw Error(ErrorKind::no_result, "the factory of method '" + name + "' gives no object");
+        return made;
     }
 
     bool contains(const std::string& name) const {
