@@ -126,6 +126,18 @@ class Robustness(CommandTest):
         self.assertFalse((self.folder / 'out.vtk').exists())
         self.assertEqual(self.left_over(), [])
 
+    def test_interrupted_auto_writes_the_best_mesh_until_then(self):
+        self.run_program('map', ROD / 'rod_patches.k', '-p', ROD / 'rod_blocks.k', '-s', '3', '-o', 'rod.vtk')
+        process = subprocess.Popen([PROGRAM, 'improve', 'rod.vtk', '-o', 'out.vtk'], cwd=self.folder,
+                                   stderr=subprocess.PIPE, text=True)
+        time.sleep(1)
+        process.send_signal(signal.SIGINT)
+        _, message = process.communicate(timeout=120)
+        self.assertEqual(process.returncode, 130, message)
+        self.assertIn('the best mesh found until then was written', message)
+        self.assertEqual(self.left_over(), [])
+        self.run_program('check', 'out.vtk')
+
     def test_names_with_blanks_and_umlauts_and_other_locales(self):
         odd = self.folder / 'Größe der Näbe, 1'
         odd.mkdir()

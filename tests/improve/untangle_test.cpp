@@ -215,6 +215,23 @@ TEST(Auto, AWorkLimitBoundsTheWorkAndGivesTheSameBytesForAnyNumberOfThreads) {
     EXPECT_THROW((void)hex::improve(mesh, options), hex::Error);
 }
 
+TEST(Auto, AskedToFinishItGivesWhatWasReached) {
+    const HexMesh mesh = shaken_grid(6, 6, 6, 0.35, 4);
+    hex::ImproveOptions options;
+    const auto full = hex::improve(mesh, options).report;
+    std::stop_source source;
+    options.finish = source.get_token();
+    hex::Context context;
+    int steps = 0;
+    context.on_progress = [&](std::string_view, double) {
+        if (++steps == 3) source.request_stop();
+    };
+    const auto ended = hex::improve(mesh, options, context).report;
+    EXPECT_LT(ended.history.size(), full.history.size());
+    EXPECT_LE(ended.after.inverted, ended.before.inverted);
+    EXPECT_TRUE(ended.after.inverted < ended.before.inverted || ended.after.min >= ended.before.min);
+}
+
 /// Paper models before improvement, on their surfaces (the published ones: min 0.10 to 0.24 at the end).
 TEST(Untangle, PaperModelsOnTheirSurfaces) {
     HEX_NEEDS_REFERENCE_DATA();

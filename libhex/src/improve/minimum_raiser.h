@@ -18,17 +18,20 @@ namespace hex::improving {
 GuideSurface make_guide_surface(const HexMesh& mesh, const BoundaryQuads& boundary,
                                 const ImproveOptions& options);
 
-/// Time that is up after so many seconds (0: never), shared by what runs one after the other.
+/// Time that is up after so many seconds (0: never), or when somebody asks to finish; shared by what runs one
+/// after the other.
 class Deadline {
   public:
-    explicit Deadline(double seconds) : seconds_(seconds), start_(std::chrono::steady_clock::now()) {}
-    bool passed() const { return seconds_ > 0.0 && elapsed() > seconds_; }
+    explicit Deadline(const ImproveOptions& options)
+        : seconds_(options.time_limit), finish_(options.finish), start_(std::chrono::steady_clock::now()) {}
+    bool passed() const { return finish_.stop_requested() || (seconds_ > 0.0 && elapsed() > seconds_); }
     double elapsed() const {
         return std::chrono::duration<double>(std::chrono::steady_clock::now() - start_).count();
     }
 
   private:
     double seconds_;
+    std::stop_token finish_;
     std::chrono::steady_clock::time_point start_;
 };
 

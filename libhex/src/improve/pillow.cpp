@@ -1,6 +1,7 @@
 /// Pillowing: a layer of new hexahedra all around, guarded (paper, section on quality improvement).
 
 #include "improve/ascent.h"
+#include "improve/shrink_set.h"
 
 #include <hex/base/parallel.h>
 
@@ -70,16 +71,25 @@ Inset make_inset(const HexMesh& mesh, const EdgeTable& edges, const BoundaryQuad
         inset.outer[i] = mesh.position(v);
         double shortest = std::numeric_limits<double>::infinity();
         for (const EdgeId e : edges.vertex_edges[v.index()]) {
-            if (!edges.boundary[e.index()]) continue;
-            shortest = std::min(shortest, (mesh.position(edges.other(e, v)) - mesh.position(v)).norm());
+            const VertexId other = edges.other(e, v);
+            if (!boundary.contains(other)) continue;
+            const bool on_face =
+                std::any_of(boundary.vertex_quads[v.index()].begin(), boundary.vertex_quads[v.index()].end(),
+                            [&](QuadId q) {
+                                const auto& quad = boundary.vertices[q.index()];
+                                return std::find(quad.begin(), quad.end(), other) != quad.end();
+                            });
+            if (on_face) shortest = std::min(shortest, (mesh.position(other) - mesh.position(v)).norm());
         }
         inset.offset[i] = -thickness_share * shortest * outward(mesh, boundary, v);
     });
     return inset;
 }
 
-/// The mesh with one hexahedron on each boundary quad: its bottom the old quad, its top the new vertices.
-HexMesh with_layer(const HexMesh& mesh, const BoundaryQuads& boundary, const Inset& inset) {
+/// The mesh with one hexahedron on each face around the flagged cells: its bottom the old quad, its top the
+/// new vertices, which the other cells have from now on.
+HexMesh with_layer(const HexMesh& mesh, const std::vector<char>& flagged, const BoundaryQuads& boundary,
+                   const Inset& inset) {
     std::vector<Vec3> positions(mesh.positions().begin(), mesh.positions().end());
     std::vector<VertexId> new_vertex(mesh.vertex_count());
     for (std::size_t i = 0; i < inset.vertices.size(); ++i) {
@@ -87,6 +97,11 @@ HexMesh with_layer(const HexMesh& mesh, const BoundaryQuads& boundary, const Ins
         positions.push_back(inset.outer[i]);
     }
     std::vector<HexCell> cells(mesh.cell_array().begin(), mesh.cell_array().end());
+    for (std::size_t c = 0; c < cells.size(); ++c) {
+        if (flagged[c]) continue;
+        for (VertexId& v : cells[c])
+            if (new_vertex[v.index()].valid()) v = new_vertex[v.index()];
+    }
     std::vector<int> parts(mesh.parts().begin(), mesh.parts().end());
     for (std::size_t q = 0; q < boundary.size(); ++q) {
         const auto& quad = boundary.vertices[q];
@@ -134,7 +149,13 @@ class PillowImprover : public Improver {
         const int layers = options.count < 0 ? 1 : options.count;
         for (int layer = 0; layer < layers; ++layer) {
             context.check_cancelled();
-            result.mesh = add_layer(result.mesh, result.report, context);
+            std::vector<char> flagged(result.mesh.cell_count(), 1);
+            if (options.local_layer) {
+                flagged = improving::cells_with_flat_edges(result.mesh, options.feature_cosine);
+                if (std::count(flagged.begin(), flagged.end(), char{1}) == 0) break;
+                improving::grow_to_manifold(result.mesh, flagged);
+            }
+            result.mesh = add_layer(result.mesh, flagged, result.report, context);
             result.report.history.back().sweep = layer + 1;
             context.progress("pillow", static_cast<double>(layer + 1) / layers);
         }
@@ -142,12 +163,13 @@ class PillowImprover : public Improver {
     }
 
   private:
-    static HexMesh add_layer(const HexMesh& mesh, ImproveReport& report, const Context& context) {
+    static HexMesh add_layer(const HexMesh& mesh, const std::vector<char>& flagged, ImproveReport& report,
+                             const Context& context) {
         const EdgeTable edges = edge_table(mesh);
-        const BoundaryQuads boundary = boundary_quads(mesh);
+        const BoundaryQuads boundary = improving::faces_around(mesh, flagged);
         const std::vector<double> before = scaled_jacobians(mesh, context);
         const Inset inset = make_inset(mesh, edges, boundary);
-        HexMesh layered = with_layer(mesh, boundary, inset);
+        HexMesh layered = with_layer(mesh, flagged, boundary, inset);
         const std::vector<double> share = thin_until_valid(layered, inset, before, context);
 
         std::vector<char> inner(layered.vertex_count(), 0);

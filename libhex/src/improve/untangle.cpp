@@ -78,7 +78,7 @@ class UntangleImprover : public Improver {
   public:
     ImproveResult improve(const HexMesh& mesh, const ImproveOptions& options,
                           const Context& context) const override {
-        const Deadline deadline(options.time_limit);
+        const Deadline deadline(options);
         MinimumRaiser raiser(mesh, improving::make_guide_surface(mesh, boundary_quads(mesh), options),
                              options, deadline, context);
         raiser.run();
@@ -118,7 +118,7 @@ class AutoImprover : public Improver {
   public:
     ImproveResult improve(const HexMesh& mesh, const ImproveOptions& options,
                           const Context& context) const override {
-        const Deadline deadline(options.time_limit);
+        const Deadline deadline(options);
         const GuideSurface surface = improving::make_guide_surface(mesh, boundary_quads(mesh), options);
         MinimumRaiser plain(mesh, surface, options, deadline, context);
         plain.begin();

@@ -18,6 +18,7 @@
 #include <fstream>
 #include <optional>
 #include <sstream>
+#include <utility>
 
 namespace cli {
 namespace {
@@ -30,12 +31,15 @@ void describe(CommandLine& line) {
              "laplace, pillow, smooth, optimize (or 0, 1, 2, 3 as in the paper), untangle, auto, snap, or a "
              "plug-in's");
     line.add("count,n", value<int>(), "layers of pillow (1), sweeps of the others (50)");
+    line.add_switch("local",
+                    "pillow: the layer only around elements that have two boundary faces on one smooth part");
     line.add("step,p", value<double>(),
              "step in (0, 1]: share of the move that is made; optimize: the first step (0.01; laplace: 1)");
     line.add("sharp,s", value<int>("0|1|2")->default_value(0),
              "sharp features: none, by angle, or from the sharp file");
-    line.add("tolerance,t", value<double>()->default_value(0.8, "0.8"),
-             "cosine of the angle between normals below which an edge is sharp, for -s 1 and --surface");
+    line.add(
+        "tolerance,t", value<double>()->default_value(0.8, "0.8"),
+        "cosine of the angle between normals below which an edge is sharp, for -s 1, --surface and --local");
     line.add("sharp-file", value<std::string>(),
              "for -s 2: its last integer of each line is a vertex (default sharp.txt beside the input)");
     line.add("surface", value<std::string>(), "closed surface on which boundary vertices are kept");
@@ -74,6 +78,7 @@ hex::ImproveOptions options_of(const CommandLine& line) {
         options.step = line.get<double>("step");
         line.require_range("step", options.step, 1e-12, 1.0);
     }
+    options.local_layer = line.is_set("local");
     options.feature_cosine = line.get<double>("tolerance");
     line.require_range("tolerance", options.feature_cosine, -1.0, 1.0);
     const int sharp = line.get<int>("sharp");
@@ -218,7 +223,11 @@ int run(CommandLine& line) {
     }
     const hex::ImproveResult result = [&] {
         try {
-            return hex::improve(mesh, options, line.context());
+            // Interrupted, these end with the best mesh found until then; the others with nothing.
+            hex::Context context = line.context();
+            if (options.method == "untangle" || options.method == "auto")
+                options.finish = std::exchange(context.stop, std::stop_token());
+            return hex::improve(mesh, options, context);
         } catch (const hex::Error& error) {
             // What is wrong with a valid mesh's input is the list of sharp vertices.
             if (error.kind() != hex::ErrorKind::bad_input) throw;
@@ -232,7 +241,9 @@ int run(CommandLine& line) {
         write_edges(line.get<std::string>("features-out"), result.report.feature_edges);
     tell(line, result.report);
     line.write_report(report_of(result.report));
-    return 0;
+    if (!options.finish.stop_requested()) return 0;
+    line.warn("interrupted: the best mesh found until then was written");
+    return hex::exit_code(hex::ErrorKind::cancelled);
 }
 
 const RegisterCommand registered(

@@ -13,6 +13,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <stop_token>
 #include <string>
 #include <utility>
 #include <vector>
@@ -57,6 +58,14 @@ struct ImproveOptions {
     /// untangle, auto: the same after so many evaluations of an element, >= 0, but with the same result on
     /// any machine; 0: no limit. `auto` may do twice as many when it tries a layer.
     double work_limit = 0.0;
+    /// untangle, auto: when a stop is asked for here, they end as after `time_limit`. (Context::stop gives
+    /// nothing at all.)
+    std::stop_token finish;
+    /// pillow: the layer goes only around cells that have two boundary faces on one smooth part of the
+    /// boundary (a cosine of at least `feature_cosine` at the edge between them), and as many of their
+    /// neighbours as it takes for these to have no edge and no vertex in common without a face. No such
+    /// cells: no layer.
+    bool local_layer = false;
 };
 
 /// State of the mesh after a sweep, a layer or a step.
