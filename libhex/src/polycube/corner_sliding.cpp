@@ -8,6 +8,8 @@
 #include <hex/volume/topology.h>
 
 #include <algorithm>
+#include <array>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -16,6 +18,16 @@ namespace {
 
 constexpr double sharp_cosine = 0.8;
 constexpr std::size_t most_candidates = 250;
+
+/// Places that a vertex is tried at.
+constexpr std::size_t most_tries = 5;
+
+/// A patch with more than this times the area that its four sides span bulges. Harmonic coordinates shrink
+/// all that is far up a finger to a point, and no mesh follows it there.
+constexpr double bulging = 1.3;
+/// Price of being away from the first place by the length of the edges around. It keeps patches in shape: a
+/// place is no better for the blocks when the triangles around it are far.
+constexpr double price_of_way = 0.3;
 
 std::size_t at(int index) {
     return static_cast<std::size_t>(index);
@@ -35,6 +47,8 @@ class Slider {
             triangles_of_[at(model.patch[t])].push_back(static_cast<int>(t));
         find_sharp_vertices();
         name_quads();
+        allow_bulges();
+        for (const VertexId v : model.blocks.vertices()) home_.push_back(model.blocks.position(v));
     }
 
     std::size_t sweep() {
@@ -136,23 +150,59 @@ class Slider {
 
         const std::vector<int> candidates = inner_vertices(triangles);
         const double before = penalty(v);
-        double least = before * 0.98 - 1e-4;
-        int best = -1;
+        double reach = 0.0;
+        for (const QuadId q : quads_.vertex_quads[v.index()]) {
+            const auto& quad = quads_.vertices[q.index()];
+            const auto k = static_cast<std::size_t>(std::find(quad.begin(), quad.end(), v) - quad.begin());
+            reach += (model_.blocks.position(quad[(k + 1) % 4]) - model_.blocks.position(v)).norm();
+        }
+        reach /= static_cast<double>(patches.size());
+        const double acceptable = before * 0.98 - 1e-4;
+        std::vector<std::pair<double, int>> better;
         const Vec3 position = model_.blocks.position(v);
         const std::size_t stride = candidates.size() / most_candidates + 1;
         for (std::size_t i = 0; i < candidates.size(); i += stride) {
             if (sharp_[at(candidates[i])] != sharp_[at(here)]) continue;
             model_.blocks.set_position(v, model_.points[at(candidates[i])]);
             const double p = penalty(v);
-            if (p < least) {
-                least = p;
-                best = candidates[i];
-            }
+            if (p >= acceptable || candidates[i] == here) continue;
+            const double way = (model_.points[at(candidates[i])] - home_[v.index()]).norm() / reach;
+            better.emplace_back(p + price_of_way * way * way, candidates[i]);
         }
         model_.blocks.set_position(v, position);
-        if (best < 0 || best == here || !recut(v, best, triangles)) return false;
-        model_.blocks.set_position(v, model_.points[at(best)]);
-        return true;
+        std::sort(better.begin(), better.end());
+        // Those next to the best one mostly fail as it does.
+        for (std::size_t tries = 0, i = 0; tries < most_tries && i < better.size(); ++tries, i += 1 + i) {
+            model_.blocks.set_position(v, model_.points[at(better[i].second)]);
+            if (recut(v, better[i].second, triangles)) return true;
+        }
+        model_.blocks.set_position(v, position);
+        return false;
+    }
+
+    /// Area of a patch by the product of the mean lengths of its opposite sides, taken straight.
+    double bulge_of(QuadId q, double area) const {
+        const auto& quad = quads_.vertices[q.index()];
+        std::array<double, 4> length{};
+        for (std::size_t k = 0; k < 4; ++k)
+            length[k] = (model_.blocks.position(quad[k]) - model_.blocks.position(quad[(k + 1) % 4])).norm();
+        const double spanned = 0.25 * (length[0] + length[2]) * (length[1] + length[3]);
+        return spanned > 0.0 ? area / spanned : std::numeric_limits<double>::infinity();
+    }
+
+    double area_of(const std::vector<Vec3>& points, const std::array<int, 3>& c) const {
+        return 0.5 * (points[at(c[1])] - points[at(c[0])]).cross(points[at(c[2])] - points[at(c[0])]).norm();
+    }
+
+    /// What each patch may bulge, however often its corners move.
+    void allow_bulges() {
+        for (std::size_t q = 0; q < quads_.size(); ++q) {
+            double area = 0.0;
+            if (patch_of_quad_[q] >= 0)
+                for (const int t : triangles_of_[at(patch_of_quad_[q])])
+                    area += area_of(model_.points, model_.triangles[at(t)]);
+            allowed_bulge_.push_back(std::max(bulging, 1.05 * bulge_of(QuadId(q), area)));
+        }
     }
 
     /// Vertices of the triangles that are not on their rim, ascending.
@@ -228,6 +278,12 @@ class Slider {
         if (at(parts) != spokes.size() || patch_of_part.size() != at(parts) || named.size() != at(parts))
             return false;
 
+        std::map<int, double> area;  // by patch
+        for (std::size_t t = 0; t < cut.triangles.size(); ++t)
+            area[patch_of_part.at(cut.part[t])] += area_of(cut.points, cut.triangles[t]);
+        for (const QuadId q : quads_.vertex_quads[v.index()])
+            if (bulge_of(q, area.at(patch_of_quad_[q.index()])) > allowed_bulge_[q.index()]) return false;
+
         for (const int t : triangles) {
             triangles_of_[at(model_.patch[at(t)])].clear();
             model_.patch[at(t)] = -1;
@@ -256,6 +312,8 @@ class Slider {
     std::vector<std::vector<int>> triangles_of_;  ///< of each patch
     std::vector<char> sharp_;                     ///< vertices on sharp edges
     std::vector<int> patch_of_quad_;
+    std::vector<double> allowed_bulge_;  ///< of each quad
+    std::vector<Vec3> home_;             ///< where each block vertex was at first
 };
 
 }  // namespace
