@@ -7,6 +7,7 @@
 #include <hex/polycube/blocks.h>
 #include <hex/polycube/polycube.h>
 #include <hex/quality/scaled_jacobian.h>
+#include <hex/quality/surface_distance.h>
 #include <hex/volume/topology.h>
 
 #include <gtest/gtest.h>
@@ -221,6 +222,35 @@ TEST(Blocks, RefuseLabelsThatAreNotOnePerTriangle) {
     EXPECT_THROW(make_blocks(mesh, Segmentation{{0, 1, 2}}), Error);
     EXPECT_THROW(make_blocks(mesh, Segmentation{labels_of_parts(mesh)}, {.unit = -1.0}), Error);
 }
+
+struct Published {
+    const char* name;
+    int attempt;  ///< SegmentOptions::attempt
+};
+
+class BlocksOfPublished : public testing::TestWithParam<Published> {};
+
+TEST_P(BlocksOfPublished, SurfacesLabelledByAutoAreNotInvertedAndAMeshFollowsTheirPatches) {
+    HEX_NEEDS_REFERENCE_DATA();
+    const std::string name = GetParam().name;
+    const TriangleMesh mesh = make_triangle_mesh(
+        io::read_surface(test::reference_data() / "paper" / name / (name + "_tri.k")).soup);
+    const BlocksResult result =
+        make_blocks(mesh, segment(mesh, {.attempt = GetParam().attempt}).segmentation);
+    ASSERT_TRUE(result.report.violations.empty()) << result.report.violations.front().message;
+    EXPECT_EQ(result.report.inverted_corners, 0U);
+    const MapResult mapped = map(result.patches, result.blocks, {.target_hexes = 3000});
+    EXPECT_EQ(mapped.report.largest_snap, 0.0);
+    // A patch that bulges, such as one with a whole leg in it, is where no mesh goes: that would be 20 %.
+    const SurfaceDistance apart = surface_distance(mapped.mesh, result.patches);
+    EXPECT_LT(apart.percent(apart.max()), 5.0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Paper, BlocksOfPublished,
+                         testing::Values(Published{"rod", 0}, Published{"hepta", 0}, Published{"mount1", 0},
+                                         Published{"joint", 0}, Published{"fertility", 1},
+                                         Published{"ant", 0}),
+                         [](const auto& of) { return std::string(of.param.name); });
 
 TEST(LabelsOfParts, AreFoundOnlyWhereChartsFaceTheirWay) {
     PolygonSoup box = test::box_surface(1, 2, 3, 2);

@@ -285,7 +285,13 @@ void Chain::map() {
 
 void Chain::improve() {
     if (!mapped_) mapped_ = load_hexahedra(line_, folder_ / "3-map.vtk");
-    const Candidate made = improve_and_consider();
+    const bool may_layer = is_searching() && !line_.given("improve");
+    const hex::HexMesh mapped = may_layer ? *mapped_ : hex::HexMesh();
+    layer_first_ = may_layer && needs_layer(mapped);
+    Candidate made = improve_and_consider();
+    if (may_layer && !layer_first_ && wants_more()) {
+        if (const auto layered = improve_with_layer(mapped)) made = *layered;
+    }
     if (is_searching()) {
         if (size_is_chosen()) refine_while_wanted(made);
         if (wants_more()) throw RouteClosed{"at best " + choice_.best()->description()};
@@ -303,7 +309,8 @@ Json Chain::improve_mesh(hex::HexMesh& mesh) {
     Json steps = Json::array();
     // The cells of a grid are brought to the surface first.
     const bool from_voxels = route_ == "voxel" && !line_.given("improve");
-    for (const auto& method : split_list((from_voxels ? "snap," : "") + line_.get<std::string>("improve"))) {
+    const std::string first = from_voxels ? "snap," : layer_first_ ? "pillow," : "";
+    for (const auto& method : split_list(first + line_.get<std::string>("improve"))) {
         hex::ImproveOptions options;
         options.method = method;
         options.features = hex::FeatureSource::angle;

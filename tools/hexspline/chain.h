@@ -83,6 +83,11 @@ class Chain {
     bool take_finer_mesh(bool nearer);
     /// Improves finer meshes of the same blocks while they may give what is wished for.
     void refine_while_wanted(const Candidate& coarse);
+    /// Whether a mapped mesh is so bad that it is not even tried without a layer around it.
+    bool needs_layer(const hex::HexMesh& mapped) const;
+    /// The same mesh with a layer of hexahedra around it before it is improved, if that may be tried. Finer
+    /// meshes get one, too, when this one is better with it.
+    std::optional<Candidate> improve_with_layer(const hex::HexMesh& mapped);
     void take_mapped(Mapped mapped);
     /// Improves the mapped mesh and lets it compete with those there are. Returns what became of it, without
     /// the meshes themselves.
@@ -120,6 +125,7 @@ class Chain {
     bool blocks_made_ = false;  ///< by this run, which so may make others
     MeshChoice choice_;
     bool newest_is_best_ = false;
+    bool layer_first_ = false;  ///< a layer is put around mapped meshes before they are improved
     std::optional<hex::HexMesh> improved_;
     Json report_;
     Json seconds_;
