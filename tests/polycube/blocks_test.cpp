@@ -235,8 +235,9 @@ TEST_P(BlocksOfPublished, SurfacesLabelledByAutoAreNotInvertedAndAMeshFollowsThe
     const std::string name = GetParam().name;
     const TriangleMesh mesh = make_triangle_mesh(
         io::read_surface(test::reference_data() / "paper" / name / (name + "_tri.k")).soup);
-    const BlocksResult result =
-        make_blocks(mesh, segment(mesh, {.attempt = GetParam().attempt}).segmentation);
+    SegmentOptions options;
+    options.attempt = GetParam().attempt;
+    const BlocksResult result = make_blocks(mesh, segment(mesh, options).segmentation);
     ASSERT_TRUE(result.report.violations.empty()) << result.report.violations.front().message;
     EXPECT_EQ(result.report.inverted_corners, 0U);
     const MapResult mapped = map(result.patches, result.blocks, {.target_hexes = 3000});
