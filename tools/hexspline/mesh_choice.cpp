@@ -13,7 +13,7 @@ constexpr double wished_scaled_jacobian = 0.2;
 /// with that of another route.
 constexpr double largest_acceptable = 2.0;
 /// Hexahedra that may be improved in all before the last try is begun.
-constexpr std::size_t most_improved = 10000;
+constexpr std::size_t most_improved = 6000;
 /// Triangles that may be labelled in all before the last labels are asked for.
 constexpr std::size_t most_labelled = 50000;
 
