@@ -55,16 +55,26 @@ double count_of(const Structure& s, const std::vector<int>& pieces) {
 /// What divisions.h says is minimised, written down once more.
 double energy_of(const Structure& s, const std::vector<int>& pieces, double edge_length) {
     const auto log_ratio = [&](double length) { return std::log(std::max(1.0, length / edge_length)); };
+    std::vector<double> total(s.sheets.count), edges_of(s.sheets.count);
+    for (const CellId b : s.blocks.cells())
+        for (std::size_t axis = 0; axis < 3; ++axis)
+            for (const std::size_t e : edges_of_axis[axis]) {
+                total[s.sheets.of_axis(s.edges, b, axis)] +=
+                    s.lengths[s.edges.cell_edges[b.index()][e].index()];
+                edges_of[s.sheets.of_axis(s.edges, b, axis)] += 1;
+            }
     double sum = 0;
     for (const CellId b : s.blocks.cells()) {
         std::array<double, 3> size{};
         for (std::size_t axis = 0; axis < 3; ++axis) {
-            const double cut = std::log(pieces[s.sheets.of_axis(s.edges, b, axis)]);
+            const std::size_t sheet = s.sheets.of_axis(s.edges, b, axis);
+            const double cut = std::log(pieces[sheet]);
             double mean = 0;
             for (const std::size_t e : edges_of_axis[axis]) {
                 const double length = s.lengths[s.edges.cell_edges[b.index()][e].index()];
                 mean += length / 4;
-                sum += std::pow(log_ratio(length) - cut, 2) / 4;
+                const double weight = length / (total[sheet] / edges_of[sheet]);
+                sum += weight * std::pow(log_ratio(length) - cut, 2) / 4;
             }
             size[axis] = log_ratio(mean) - cut;
         }
@@ -135,6 +145,20 @@ TEST(Divisions, AreTheBestOfAll) {
             EXPECT_GE(energy_of(s, pieces, 1.0), best - 1e-5) << trial << ": " << k;
         }
     }
+}
+
+/// Of a sheet that is thin nearly everywhere, the one long edge is cut: elements a block long miss the
+/// surface.
+TEST(Divisions, LongEdgesOfAThinSheetAreCut) {
+    Structure s = stretched({{{0, 1, 2, 3, 4, 5, 6, 7, 8}, {0, 1}, {0, 1}}});
+    const std::size_t sheet = s.sheets.of_axis(s.edges, CellId(0), 1);
+    bool first = true;
+    for (std::size_t e = 0; e < s.lengths.size(); ++e) {
+        if (s.sheets.sheet_of_edge[e] != sheet) continue;
+        s.lengths[e] = first ? 12.0 : 1.0;
+        first = false;
+    }
+    EXPECT_GE(s.divider().for_length(1.0).pieces[sheet], 2);
 }
 
 TEST(Divisions, CountIsThatOfTheHexahedra) {

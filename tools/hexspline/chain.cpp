@@ -287,9 +287,9 @@ void Chain::improve() {
     if (!mapped_) mapped_ = load_hexahedra(line_, folder_ / "3-map.vtk");
     const bool may_layer = is_searching() && !line_.given("improve");
     const hex::HexMesh mapped = may_layer ? *mapped_ : hex::HexMesh();
-    layer_first_ = may_layer && needs_layer(mapped);
+    layer_first_ = false;
     Candidate made = improve_and_consider();
-    if (may_layer && !layer_first_ && wants_more()) {
+    if (may_layer && wants_more()) {
         if (const auto layered = improve_with_layer(mapped)) made = *layered;
     }
     if (is_searching()) {

@@ -83,8 +83,6 @@ class Chain {
     bool take_finer_mesh(bool nearer);
     /// Improves finer meshes of the same blocks while they may give what is wished for.
     void refine_while_wanted(const Candidate& coarse);
-    /// Whether a mapped mesh is so bad that it is not even tried without a layer around it.
-    bool needs_layer(const hex::HexMesh& mapped) const;
     /// The same mesh with a layer of hexahedra around it before it is improved, if that may be tried. Finer
     /// meshes get one, too, when this one is better with it.
     std::optional<Candidate> improve_with_layer(const hex::HexMesh& mapped);

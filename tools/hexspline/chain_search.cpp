@@ -31,9 +31,6 @@ constexpr double worth_refining = 0.95;
 /// How often a finer mesh of the same blocks is tried, and how often if it is not the distance that lacks.
 constexpr int most_refinements = 2;
 constexpr int most_refinements_for_shape = 1;
-/// A mapped mesh of which a larger share is inverted is improved only with a layer around it: that is what
-/// the blocks of smooth parts look like.
-constexpr double hopeless_without_layer = 0.01;
 /// SegmentOptions::attempt goes up to this.
 constexpr int last_attempt = 3;
 
@@ -159,12 +156,6 @@ void Chain::refine_while_wanted(const Candidate& coarse) {
 
 // Blocks have edges on smooth parts of the surface: no motion of vertices makes good corners there, where the
 // surface leaves an angle of nearly 180 degrees, but with a layer each element has one face outside.
-
-bool Chain::needs_layer(const hex::HexMesh& mapped) const {
-    const hex::QualitySummary quality = hex::summarize(mapped, line_.context());
-    return static_cast<double>(quality.inverted) >
-           hopeless_without_layer * static_cast<double>(quality.cells);
-}
 
 std::optional<Candidate> Chain::improve_with_layer(const hex::HexMesh& mapped) {
     if (!choice_.may_improve(mapped.cell_count())) return {};

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <utility>
 
 namespace hex {
@@ -142,6 +143,15 @@ SheetDivider::SheetDivider(const HexMesh& blocks, const EdgeTable& edges, const 
                 sheet_blocks_[sheet].push_back(b.index());
         }
     }
+    for (const std::vector<double>& lengths_of_sheet : sheet_lengths_) {
+        const double sum = std::accumulate(lengths_of_sheet.begin(), lengths_of_sheet.end(), 0.0);
+        sheet_mean_.push_back(lengths_of_sheet.empty() ? 0.0
+                                                       : sum / static_cast<double>(lengths_of_sheet.size()));
+    }
+}
+
+double SheetDivider::weight_in(std::size_t sheet, double length) const {
+    return sheet_mean_[sheet] > 0.0 ? length / sheet_mean_[sheet] : 1.0;
 }
 
 SheetDivider::Model SheetDivider::model(double edge_length) const {
@@ -152,7 +162,7 @@ SheetDivider::Model SheetDivider::model(double edge_length) const {
     model.crossing_of.resize(sheet_count_);
     for (std::size_t s = 0; s < sheet_count_; ++s) {
         double sum = 0.0;
-        for (const double length : sheet_lengths_[s]) sum += log_ratio(length);
+        for (const double length : sheet_lengths_[s]) sum += weight_in(s, length) * log_ratio(length);
         model.candidates[s] =
             candidates_around(std::exp(sum / static_cast<double>(sheet_lengths_[s].size())));
         // Far below what matters, far above rounding: of equally good choices always the same one.
@@ -161,7 +171,7 @@ SheetDivider::Model SheetDivider::model(double edge_length) const {
             const double log_pieces = std::log(model.candidates[s][k]);
             double cost = tie * static_cast<double>(k);
             for (const double length : sheet_lengths_[s])
-                cost += 0.25 * square(log_ratio(length) - log_pieces);
+                cost += 0.25 * weight_in(s, length) * square(log_ratio(length) - log_pieces);
             model.single[s].push_back(cost);
         }
     }
@@ -252,7 +262,7 @@ double SheetDivider::energy_around(std::size_t sheet, const std::vector<int>& pi
     const auto log_ratio = [&](double length) { return std::max(0.0, std::log(length / edge_length)); };
     double sum = 0.0;
     for (const double length : sheet_lengths_[sheet])
-        sum += 0.25 * square(log_ratio(length) - std::log(pieces[sheet]));
+        sum += 0.25 * weight_in(sheet, length) * square(log_ratio(length) - std::log(pieces[sheet]));
     for (const std::size_t b : sheet_blocks_[sheet])
         for (std::size_t a = 0; a < 3; ++a) {
             const Axis& p = blocks_[b][a];

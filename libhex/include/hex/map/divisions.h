@@ -18,7 +18,8 @@ struct SheetDivisions {
 
 /// Chooses one number of pieces n a sheet that minimises, over all blocks, the squares of
 ///
-///     log(length / (n H))      of the 12 edges, a quarter each: elements as large as asked
+///     log(length / (n H))      of the 12 edges, a quarter each, times the edge's length over the mean of its
+///                              sheet: elements as large as asked, above all where they are long
 ///     log(p) - log(q)          for the mean edge lengths p, q of its elements along two axes: near-cubic
 ///
 /// with n >= 1. Without the second sum every sheet would be rounded by itself, and blocks of 1.4 H to 1.5 H
@@ -52,6 +53,8 @@ class SheetDivider {
     struct Model;
 
     Model model(double edge_length) const;
+    /// Of one edge in the sum over its sheet; 1 on average.
+    double weight_in(std::size_t sheet, double length) const;
     double count(const std::vector<int>& pieces) const;
     double energy_around(std::size_t sheet, const std::vector<int>& pieces, double edge_length) const;
     SheetDivisions nudged(SheetDivisions divisions, double target) const;
@@ -60,6 +63,7 @@ class SheetDivider {
     std::size_t sheet_count_;
     std::vector<std::array<Axis, 3>> blocks_;
     std::vector<std::vector<double>> sheet_lengths_;      ///< four a block axis
+    std::vector<double> sheet_mean_;                      ///< of these lengths
     std::vector<std::vector<std::size_t>> sheet_blocks_;  ///< blocks that a sheet runs through
 };
 
