@@ -278,6 +278,10 @@ void Chain::map() {
     } else {
         take_mapped({hex::map(patches(), blocks(), element_size(line_), line_.context())});
     }
+    report_mapped();
+}
+
+void Chain::report_mapped() {
     report_["blocks"] = blocks().cell_count();
     report_quality(hex::summarize(*mapped_, line_.context()));
     hex::io::write_hex_mesh(folder_ / "3-map.vtk", *mapped_);

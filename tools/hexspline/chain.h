@@ -48,6 +48,16 @@ class Chain {
         double apart = 0.0;   ///< from the surface, in percent of the diagonal
     };
 
+    /// A mapped mesh and what it was made from.
+    struct Postponed {
+        Mapped mapped;
+        hex::TriangleMesh surface;
+        std::optional<hex::Segmentation> segmentation;
+        std::optional<hex::TriangleMesh> patches;
+        hex::HexMesh blocks;
+        Json report;
+    };
+
     void run_stage(std::size_t stage);
     void make_folder();
     void choose_route(std::size_t first);
@@ -56,8 +66,15 @@ class Chain {
     std::size_t go_on_after(const std::string& reason);
     /// Labels the surface: SegmentOptions::attempt.
     void label(int attempt);
+    bool may_take_other_labels() const;
     /// Labels it otherwise than before. Returns false when there is nothing else to try.
     bool take_other_labels();
+    /// Keeps a mapped mesh that does not follow the surface, for when no other labels give one that does;
+    /// of several the nearest.
+    void postpone(const Mapped& mapped);
+    /// Goes back to what was postponed. Returns false when there is nothing, when the best mesh is
+    /// acceptable, or when it is too expensive.
+    bool take_postponed();
     void take_voxel_route();
     void write_labels() const;
     void write_polycube(const hex::Polycube& quads) const;
@@ -87,6 +104,8 @@ class Chain {
     /// meshes get one, too, when this one is better with it.
     std::optional<Candidate> improve_with_layer(const hex::HexMesh& mapped);
     void take_mapped(Mapped mapped);
+    /// Tells of the mapped mesh and writes it.
+    void report_mapped();
     /// Improves the mapped mesh and lets it compete with those there are. Returns what became of it, without
     /// the meshes themselves.
     Candidate improve_and_consider();
@@ -122,6 +141,7 @@ class Chain {
     double mapped_apart_ = 0.0;
     bool blocks_made_ = false;  ///< by this run, which so may make others
     MeshChoice choice_;
+    std::optional<Postponed> postponed_;
     bool newest_is_best_ = false;
     bool layer_first_ = false;  ///< a layer is put around mapped meshes before they are improved
     std::optional<hex::HexMesh> improved_;

@@ -39,6 +39,7 @@ constexpr int last_attempt = 3;
 std::size_t Chain::go_on_after(const std::string& reason) {
     line_.info("these labels: " + reason);
     if (take_other_labels()) return segment_stage;
+    if (take_postponed()) return map_stage;
     const auto wish = line_.get<std::string>("route");
     const auto& best = choice_.best();
     if (best && best->valid() && (best->acceptable() || !size_is_chosen() || wish == "labelling")) {
@@ -55,18 +56,45 @@ std::size_t Chain::go_on_after(const std::string& reason) {
     return segment_stage;
 }
 
-bool Chain::take_other_labels() {
+bool Chain::may_take_other_labels() const {
     // Only where this run made labels by the method that has others to offer.
-    if (tried_labels_.empty() || line_.given("weight")) return false;
+    return !tried_labels_.empty() && !line_.given("weight") && attempt_ < last_attempt &&
+           choice_.may_label(surface_->n_faces()) &&
+           choice_.may_improve(static_cast<std::size_t>(first_target));
+}
+
+bool Chain::take_other_labels() {
     const std::size_t tried = tried_labels_.size();
-    for (int attempt = attempt_ + 1; attempt <= last_attempt; ++attempt) {
-        if (!choice_.may_label(surface_->n_faces()) ||
-            !choice_.may_improve(static_cast<std::size_t>(first_target)))
-            return false;
-        label(attempt);
+    while (may_take_other_labels()) {
+        label(++attempt_);
         if (tried_labels_.size() > tried) return true;
     }
     return false;
+}
+
+void Chain::postpone(const Mapped& mapped) {
+    if (postponed_ && postponed_->mapped.apart <= mapped.apart) return;
+    postponed_ = Postponed{mapped, surface(), segmentation_, patches_, blocks(), report_};
+}
+
+bool Chain::take_postponed() {
+    if (!postponed_) return false;
+    Postponed taken = std::move(*postponed_);
+    postponed_.reset();
+    const auto& best = choice_.best();
+    if ((best && best->acceptable()) || !choice_.may_improve(taken.mapped.result.mesh.cell_count()))
+        return false;
+    surface_ = std::move(taken.surface);
+    segmentation_ = std::move(taken.segmentation);
+    patches_ = std::move(taken.patches);
+    blocks_ = std::move(taken.blocks);
+    report_ = std::move(taken.report);
+    if (!tried_labels_.empty()) write_labels();
+    write_polycube(hex::polycube(*patches_, {}, line_.context()).polycube);
+    hex::io::write_hex_mesh(folder_ / "2-blocks.k", *blocks_);
+    take_mapped(std::move(taken.mapped));
+    report_mapped();
+    return true;
 }
 
 void Chain::take_voxel_route() {
@@ -124,9 +152,16 @@ Chain::Mapped Chain::as_fine_as_needed() {
         throw RouteClosed{"the mapped mesh stays " + std::to_string(nearest) +
                           " % of the diagonal off the surface"};
     }
-    return std::move(*std::find_if(meshes.begin(), meshes.end(), [&](const Mapped& mapped) {
+    Mapped& chosen = *std::find_if(meshes.begin(), meshes.end(), [&](const Mapped& mapped) {
         return mapped.apart <= nearly_as_near * nearest;
-    }));
+    });
+    // Improvement is what takes time; labels whose blocks follow the surface come first.
+    if (is_searching() && may_take_other_labels()) {
+        postpone(chosen);
+        throw RouteClosed{"no mesh of these blocks follows the surface; the nearest is " +
+                          std::to_string(nearest) + " % of the diagonal off"};
+    }
+    return std::move(chosen);
 }
 
 bool Chain::take_finer_mesh(bool nearer) {
