@@ -45,10 +45,7 @@ class Reader {
         data_.weight_flag = words_.integer("the weight flag");
         data_.points.reserve(words_.at_most_left(nodes) / 4);
         for (std::size_t i = 0; i < nodes; ++i) {
-            hex::Vec3 point;
-            for (double& x : point) x = words_.real("a coordinate");
-            const double weight = words_.real("a weight");
-            if (!(weight > 0)) words_.fail("a weight that is not positive");
+            const auto [point, weight] = words_.weighted_point();
             data_.points.push_back(point);
             data_.weights.push_back(weight);
         }

@@ -66,10 +66,7 @@ class Reader {
 
     void read_node() {
         if (!spline_.elements.empty()) words_.fail("gnode after the first belem");
-        hex::Vec3 point;
-        for (double& x : point) x = words_.real("a coordinate");
-        const double weight = words_.real("a weight");
-        if (!(weight > 0)) words_.fail("a weight that is not positive");
+        const auto [point, weight] = words_.weighted_point();
         spline_.control_points.push_back(point);
         spline_.weights.push_back(weight);
         if (spline_.control_points.size() > nodes_) words_.fail("more control points than nodeN says");

@@ -83,6 +83,14 @@ double Words::real(const char* wanted) {
     return *value;
 }
 
+Words::WeightedPoint Words::weighted_point() {
+    WeightedPoint read;
+    for (double& x : read.point) x = real("a coordinate");
+    read.weight = real("a weight");
+    if (!(read.weight > 0)) fail("a weight that is not positive");
+    return read;
+}
+
 std::uint32_t Words::id(const char* wanted, std::size_t most) {
     const std::int64_t value = integer(wanted);
     if (value < 1 || value > static_cast<std::int64_t>(most))

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <hex/base/error.h>
+#include <hex/base/linear_algebra.h>
 
 #include <algorithm>
 #include <cstdint>
@@ -32,6 +33,12 @@ class Words {
     std::int64_t integer(const char* wanted);
     std::size_t count(const char* wanted);  ///< >= 0
     double real(const char* wanted);
+    struct WeightedPoint {
+        hex::Vec3 point;
+        double weight;
+    };
+    /// Three coordinates and a positive weight.
+    WeightedPoint weighted_point();
     /// A 1-based id up to `most`, made 0-based.
     std::uint32_t id(const char* wanted, std::size_t most);
     void keyword(const char* word);
