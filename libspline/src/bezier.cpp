@@ -11,42 +11,50 @@ bool BezierSpline::rational() const {
     return std::any_of(weights.begin(), weights.end(), [](double w) { return w != 1.0; });
 }
 
-const ElementExtraction& ExtractionGatherer::operator()(std::size_t element) {
-    const auto& points = spline_.elements[element];
-    auto& functions = extraction_.functions;
+std::span<const std::uint32_t> ElementFunctions::operator()(const BezierSpline& spline, std::size_t element) {
+    const auto& points = spline.elements[element];
     std::size_t terms = 0;
-    for (const std::uint32_t p : points) terms += spline_.rows[p].size();
+    for (const std::uint32_t p : points) terms += spline.rows[p].size();
+    terms_.resize(terms);
 
-    // Distinct functions by open addressing; the table holds places in `functions`, plus one.
+    // Distinct control points by open addressing: their number is far below that of the terms.
+    constexpr std::uint32_t empty = 0xffffffff;
     const std::size_t capacity = std::bit_ceil(std::max<std::size_t>(256, terms));
-    table_.assign(capacity, 0);
-    const auto place = [&](std::uint32_t function) -> std::uint32_t& {
-        std::size_t slot = (function * 2654435761U) & (capacity - 1);
-        while (table_[slot] != 0 && functions[table_[slot] - 1] != function)
-            slot = (slot + 1) & (capacity - 1);
-        return table_[slot];
-    };
-    functions.clear();
+    table_.assign(capacity, {empty, 0});
+    found_.clear();
+    std::size_t term = 0;
     for (const std::uint32_t p : points) {
-        for (const std::uint32_t f : spline_.rows[p].columns) {
-            std::uint32_t& entry = place(f);
-            if (entry != 0) continue;
-            functions.push_back(f);
-            entry = static_cast<std::uint32_t>(functions.size());
+        for (const std::uint32_t f : spline.rows[p].columns) {
+            std::size_t slot = (f * 2654435761U) & (capacity - 1);
+            while (table_[slot].function != f && table_[slot].function != empty)
+                slot = (slot + 1) & (capacity - 1);
+            if (table_[slot].function == empty) {
+                table_[slot] = {f, static_cast<std::uint32_t>(found_.size())};
+                found_.push_back(table_[slot]);
+            }
+            terms_[term++] = table_[slot].place;
         }
     }
-    std::sort(functions.begin(), functions.end());
-    table_.assign(capacity, 0);
-    for (std::size_t i = 0; i < functions.size(); ++i) {
-        std::size_t slot = (functions[i] * 2654435761U) & (capacity - 1);
-        while (table_[slot] != 0) slot = (slot + 1) & (capacity - 1);
-        table_[slot] = static_cast<std::uint32_t>(i + 1);
+    std::sort(found_.begin(), found_.end(),
+              [](const Entry& a, const Entry& b) { return a.function < b.function; });
+    functions_.resize(found_.size());
+    rank_.resize(found_.size());
+    for (std::size_t i = 0; i < found_.size(); ++i) {
+        functions_[i] = found_[i].function;
+        rank_[found_[i].place] = static_cast<std::uint32_t>(i);
     }
+    for (std::uint32_t& place : terms_) place = rank_[place];
+    return functions_;
+}
+
+const ElementExtraction& ExtractionGatherer::operator()(std::size_t element) {
+    const auto functions = functions_of_(spline_, element);
+    extraction_.functions.assign(functions.begin(), functions.end());
     extraction_.coefficients.assign(functions.size(), {});
+    auto place = functions_of_.place_of_terms().begin();
     for (std::size_t p = 0; p < 64; ++p) {
-        const SparseRow row = spline_.rows[points[p]];
-        for (std::size_t i = 0; i < row.size(); ++i)
-            extraction_.coefficients[place(row.columns[i]) - 1][p] = row.values[i];
+        for (const double value : spline_.rows[spline_.elements[element][p]].values)
+            extraction_.coefficients[*place++][p] = value;
     }
     return extraction_;
 }
@@ -107,56 +115,59 @@ ElementPoint evaluate(const BezierSpline& spline, const std::vector<BezierPoint>
 }
 
 BezierSummary summarize(const BezierSpline& spline) {
-    struct Partial {
+    BezierSummary summary;
+    summary.control_points = spline.function_count();
+    summary.elements = spline.element_count();
+    if (spline.element_count() == 0) return summary;
+
+    struct Numbers {
         std::size_t least = SIZE_MAX, most = 0, total = 0;
-        double error = 0.0, smallest = INFINITY;
     };
     constexpr std::size_t chunk_size = 256;
-    const std::size_t count = spline.element_count();
-    std::vector<Partial> partials((count + chunk_size - 1) / chunk_size);
+    std::vector<Numbers> chunks((spline.element_count() + chunk_size - 1) / chunk_size);
     hex::parallel_for(
-        partials.size(),
+        chunks.size(),
         [&](std::size_t chunk) {
-            Partial& partial = partials[chunk];
-            std::vector<std::uint32_t> functions;
-            for (std::size_t e = chunk * chunk_size; e < std::min(count, (chunk + 1) * chunk_size); ++e) {
-                functions.clear();
-                for (const std::uint32_t p : spline.elements[e]) {
-                    const SparseRow row = spline.rows[p];
-                    functions.insert(functions.end(), row.columns.begin(), row.columns.end());
-                    double sum = 0.0;
-                    for (const double c : row.values) {
-                        sum += c;
-                        partial.smallest = std::min(partial.smallest, c);
-                    }
-                    partial.error = std::max(partial.error, std::abs(sum - 1.0));
-                }
-                std::sort(functions.begin(), functions.end());
-                const auto distinct = static_cast<std::size_t>(
-                    std::unique(functions.begin(), functions.end()) - functions.begin());
-                partial.least = std::min(partial.least, distinct);
-                partial.most = std::max(partial.most, distinct);
-                partial.total += distinct;
+            Numbers& numbers = chunks[chunk];
+            ElementFunctions functions_of;
+            const std::size_t end = std::min(spline.element_count(), (chunk + 1) * chunk_size);
+            for (std::size_t e = chunk * chunk_size; e < end; ++e) {
+                const std::size_t distinct = functions_of(spline, e).size();
+                numbers.least = std::min(numbers.least, distinct);
+                numbers.most = std::max(numbers.most, distinct);
+                numbers.total += distinct;
             }
         },
         1);
-    BezierSummary summary;
-    summary.control_points = spline.function_count();
-    summary.elements = count;
-    if (count == 0) return summary;
-    Partial all;
-    for (const Partial& p : partials) {
-        all.least = std::min(all.least, p.least);
-        all.most = std::max(all.most, p.most);
-        all.total += p.total;
-        all.error = std::max(all.error, p.error);
-        all.smallest = std::min(all.smallest, p.smallest);
+    Numbers all;
+    for (const Numbers& numbers : chunks) {
+        all.least = std::min(all.least, numbers.least);
+        all.most = std::max(all.most, numbers.most);
+        all.total += numbers.total;
     }
     summary.functions_min = all.least;
     summary.functions_max = all.most;
-    summary.functions_mean = static_cast<double>(all.total) / static_cast<double>(count);
-    summary.partition_of_unity_error = all.error;
-    summary.smallest_coefficient = all.smallest;
+    summary.functions_mean = static_cast<double>(all.total) / static_cast<double>(spline.element_count());
+
+    struct Bounds {
+        double error = 0.0, smallest = INFINITY;
+    };
+    const Bounds bounds = hex::parallel_reduce(
+        spline.rows.size(), Bounds(),
+        [&](Bounds value, std::size_t p) {
+            double sum = 0.0;
+            for (const double c : spline.rows[p].values) {
+                sum += c;
+                value.smallest = std::min(value.smallest, c);
+            }
+            value.error = std::max(value.error, std::abs(sum - 1.0));
+            return value;
+        },
+        [](const Bounds& a, const Bounds& b) {
+            return Bounds{std::max(a.error, b.error), std::min(a.smallest, b.smallest)};
+        });
+    summary.partition_of_unity_error = bounds.error;
+    summary.smallest_coefficient = bounds.smallest;
     return summary;
 }
 

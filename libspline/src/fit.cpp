@@ -145,9 +145,10 @@ class Fit {
 
     Variables variables_of(const std::vector<char>& elements) const {
         std::vector<char> may_move(original_.size(), 0);
+        ElementFunctions functions_of;
         for (std::size_t e = 0; e < elements.size(); ++e) {
             if (elements[e] == 0) continue;
-            for (const std::uint32_t f : Incidence::of_element(spline_, e)) may_move[f] = 1;
+            for (const std::uint32_t f : functions_of(spline_, e)) may_move[f] = 1;
         }
         return Variables(may_move);
     }

@@ -9,8 +9,17 @@ namespace spline {
 
 Incidence::Incidence(const BezierSpline& spline) {
     std::vector<std::vector<std::uint32_t>> functions(spline.element_count());
-    hex::parallel_for(
-        functions.size(), [&](std::size_t e) { functions[e] = of_element(spline, e); }, 32);
+    constexpr std::size_t chunk_size = 64;
+    hex::parallel_for((functions.size() + chunk_size - 1) / chunk_size,
+                      [&](std::size_t chunk) {
+                          ElementFunctions functions_of;
+                          const std::size_t end = std::min(functions.size(), (chunk + 1) * chunk_size);
+                          for (std::size_t e = chunk * chunk_size; e < end; ++e) {
+                              const auto found = functions_of(spline, e);
+                              functions[e].assign(found.begin(), found.end());
+                          }
+                      },
+                      1);
     offsets.assign(spline.function_count() + 1, 0);
     for (const auto& list : functions)
         for (const std::uint32_t f : list) ++offsets[f + 1];
@@ -19,17 +28,6 @@ Incidence::Incidence(const BezierSpline& spline) {
     std::vector<std::size_t> next(offsets.begin(), offsets.end() - 1);
     for (std::size_t e = 0; e < functions.size(); ++e)
         for (const std::uint32_t f : functions[e]) elements[next[f]++] = static_cast<std::uint32_t>(e);
-}
-
-std::vector<std::uint32_t> Incidence::of_element(const BezierSpline& spline, std::size_t e) {
-    std::vector<std::uint32_t> list;
-    for (const std::uint32_t p : spline.elements[e]) {
-        const SparseRow row = spline.rows[p];
-        list.insert(list.end(), row.columns.begin(), row.columns.end());
-    }
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
-    return list;
 }
 
 }  // namespace spline

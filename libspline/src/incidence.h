@@ -1,5 +1,5 @@
 /// \file incidence.h
-/// Which control points shape an element, and which elements a control point shapes.
+/// Which elements a control point shapes.
 #pragma once
 
 #include <spline/bezier.h>
@@ -19,9 +19,6 @@ struct Incidence {
     std::span<const std::uint32_t> operator[](std::uint32_t function) const {
         return {elements.data() + offsets[function], offsets[function + 1] - offsets[function]};
     }
-
-    /// The control points of an element, ascending.
-    static std::vector<std::uint32_t> of_element(const BezierSpline& spline, std::size_t e);
 };
 
 }  // namespace spline

@@ -32,8 +32,9 @@ std::vector<Group> find_groups(const BezierSpline& spline, const Incidence& inci
     std::vector<std::uint32_t> parent(spline.element_count());
     std::iota(parent.begin(), parent.end(), 0U);
     std::vector<char> variable(spline.function_count(), 0);
+    ElementFunctions functions_of;
     for (const std::int64_t e : bad) {
-        for (const std::uint32_t f : Incidence::of_element(spline, static_cast<std::size_t>(e))) {
+        for (const std::uint32_t f : functions_of(spline, static_cast<std::size_t>(e))) {
             if (may_move[f] == 0) continue;
             variable[f] = 1;
             for (const std::uint32_t other : incidence[f])

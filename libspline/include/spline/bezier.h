@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace spline {
@@ -35,6 +36,23 @@ struct BezierSpline {
     bool rational() const;
 };
 
+/// Finds the control points that shape an element; holds its working memory. One object a thread.
+class ElementFunctions {
+  public:
+    /// The control points of an element, ascending. Valid until the next call.
+    std::span<const std::uint32_t> operator()(const BezierSpline& spline, std::size_t element);
+    /// For every term of the element's rows, its points one after the other, the place of its control point
+    /// in the answer above.
+    std::span<const std::uint32_t> place_of_terms() const { return terms_; }
+
+  private:
+    struct Entry {
+        std::uint32_t function, place;
+    };
+    std::vector<Entry> table_, found_;
+    std::vector<std::uint32_t> functions_, terms_, rank_;
+};
+
 /// The extraction of one element: rows of M^T.
 struct ElementExtraction {
     std::vector<std::uint32_t> functions;              ///< ascending; each has a coefficient that is not zero
@@ -51,7 +69,7 @@ class ExtractionGatherer {
   private:
     const BezierSpline& spline_;
     ElementExtraction extraction_;
-    std::vector<std::uint32_t> table_;
+    ElementFunctions functions_of_;
 };
 
 /// Position (x, y, z) and weight of every Bezier point.

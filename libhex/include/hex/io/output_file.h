@@ -31,12 +31,14 @@ class OutputFile {
   private:
     static constexpr std::size_t large = std::size_t{1} << 20;
     void flush();
+    void write_out(std::string_view bytes);
     [[noreturn]] void fail(const std::string& what, int error_number);
 
     std::filesystem::path path_;
     std::filesystem::path temporary_;
     std::string buffer_;
     int descriptor_ = -1;
+    std::size_t unsynced_ = 0;  ///< bytes written since the disk was last told to begin
 };
 
 /// The whole text as a file, all or nothing.
