@@ -137,6 +137,20 @@ FitDistance BoundaryFit::measure(std::span<const Vec3> control_points) {
     return distance;
 }
 
+std::vector<double> BoundaryFit::errors_of_elements(std::span<const Vec3> control_points) {
+    const Found found = search(control_points);
+    std::vector<double> errors(spline_.element_count(), -1.0);
+    const auto add = [&](const BoundaryPlace& place, double distance) {
+        double& error = errors[faces_[place.face].element];
+        error = std::max(error, distance);
+    };
+    for (std::size_t i = 0; i < found.points.size(); ++i)
+        add(grid_[i], (found.feet[i].point - found.points[i]).norm());
+    for (std::size_t i = 0; i < found.places.size(); ++i)
+        add(found.places[i].place, (found.places[i].point - part_.samples()[i].point).norm());
+    return errors;
+}
+
 SquareTerms BoundaryFit::pulls(std::span<const Vec3> control_points, double emphasis) {
     const Found found = search(control_points);
     std::vector<double> squares(found.points.size());

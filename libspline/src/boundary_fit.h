@@ -29,6 +29,8 @@ class BoundaryFit {
     BoundaryFit(const BezierSpline& spline, const hex::TriangleMesh& surface);
 
     FitDistance measure(std::span<const hex::Vec3> control_points);
+    /// The largest distance at each element, -1 without boundary.
+    std::vector<double> errors_of_elements(std::span<const hex::Vec3> control_points);
 
     /// Samples of the boundary to their closest points of the part, samples of the part to theirs of the
     /// boundary, creases to sharp edges. The weights sum to about 1. Far samples count up to `emphasis`

@@ -281,6 +281,13 @@ FitReport fit(BezierSpline& spline, JacobianReport& verdict, const hex::Triangle
     return hex::with_threads(context, [&] { return Fit(spline, verdict, surface, options, context).run(); });
 }
 
+std::vector<double> fit_errors(const BezierSpline& spline, const hex::TriangleMesh& surface,
+                               const hex::Context& context) {
+    check(spline);
+    return hex::with_threads(
+        context, [&] { return BoundaryFit(spline, surface).errors_of_elements(spline.control_points); });
+}
+
 FitDistance fit_distance(const BezierSpline& spline, const hex::TriangleMesh& surface,
                          const hex::Context& context) {
     check(spline);

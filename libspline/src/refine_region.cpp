@@ -81,8 +81,8 @@ std::vector<std::int64_t> worst_elements(double share, const LevelMesh& level, s
 
 [[noreturn]] void refuse(const std::string& text) {
     throw Error(ErrorKind::usage, "'" + text + "' is nothing to refine", {},
-                "use box:x0,y0,z0,x1,y1,z1[:level], sphere:x,y,z,radius[:level], near:FILE[:level] or "
-                "worst:N%[:level]");
+                "use box:x0,y0,z0,x1,y1,z1[:level], sphere:x,y,z,radius[:level], near:FILE[:level], "
+                "worst:N%[:level] or worst-fit:N%[:level]");
 }
 
 /// Exactly `count` numbers separated by commas.
@@ -162,6 +162,8 @@ std::vector<std::int64_t> elements_in(const RefineRegion& region, const LevelMes
                 }
                 return false;
             });
+        case RefineRegion::Kind::worst_fit:
+            return {};
         case RefineRegion::Kind::worst:
             break;
     }
@@ -196,9 +198,9 @@ RefineRegion parse_region(const std::string& text) {
         if (!(region.radius >= 0.0)) refuse(text);
     } else if (kind == "near" && !what.empty()) {
         read_places(what, region);
-    } else if (kind == "worst" && what.ends_with('%')) {
+    } else if ((kind == "worst" || kind == "worst-fit") && what.ends_with('%')) {
         what.pop_back();
-        region.kind = RefineRegion::Kind::worst;
+        region.kind = kind == "worst" ? RefineRegion::Kind::worst : RefineRegion::Kind::worst_fit;
         region.share = numbers_of(what, 1, text)[0] / 100.0;
         if (!(region.share > 0.0 && region.share <= 1.0)) refuse(text);
     } else {

@@ -1,6 +1,9 @@
+#include "fit_regions.h"
+
 #include <hex/base/error.h>
 #include <hex/base/parallel.h>
 #include <hex/quality/scaled_jacobian.h>
+#include <hex/volume/topology.h>
 #include <spline/spline.h>
 
 #include <algorithm>
@@ -43,6 +46,40 @@ void check_inverted(const hex::HexMesh& mesh, bool force, const hex::Context& co
     diagnostics.push_back({hex::Severity::warning, "inverted-elements", message, "cell", inverted});
 }
 
+/// Diagnostic or error for elements around vertices and edges where elements only touch.
+void check_manifold(const hex::HexMesh& mesh, bool force, hex::Diagnostics& diagnostics) {
+    std::vector<std::int64_t> touching;
+    std::string places;
+    for (const hex::Diagnostic& finding : hex::inspect(mesh)) {
+        const bool vertices = finding.code == "non-manifold-vertices";
+        if (!vertices && finding.code != "non-manifold-edges") continue;
+        const hex::EdgeTable edges = vertices ? hex::EdgeTable() : hex::edge_table(mesh);
+        const auto cells = vertices ? hex::vertex_cells(mesh) : edges.cells;
+        for (const std::int64_t id : finding.ids) {
+            for (const hex::CellId c : cells[static_cast<std::size_t>(id)]) touching.push_back(c.value());
+            if (vertices) continue;
+            const auto& [a, b] = edges.vertices[static_cast<std::size_t>(id)];
+            places.append(places.empty() ? "" : ", ").append(std::to_string(a.value())).append("-");
+            places.append(std::to_string(b.value()));
+            if (places.size() < 80) continue;
+            places.append(", ...");
+            break;
+        }
+        places = (vertices ? "at vertices " + hex::list_ids(finding.ids) : "along edges " + places);
+    }
+    if (touching.empty()) return;
+    std::sort(touching.begin(), touching.end());
+    touching.erase(std::unique(touching.begin(), touching.end()), touching.end());
+    std::string message = std::to_string(touching.size());
+    message.append(" elements only touch others ").append(places);
+    message.append(", not through faces: ").append(hex::list_ids(touching));
+    if (!force)
+        throw Error(
+            ErrorKind::bad_input, message, {},
+            "separate or join them; --force goes on, but the spline is one there that folds or hinges");
+    diagnostics.push_back({hex::Severity::warning, "non-manifold", message, "cell", touching});
+}
+
 /// The mesh without the vertices that no cell uses, and where each vertex went (-1: dropped).
 struct Compacted {
     hex::HexMesh mesh;
@@ -76,6 +113,24 @@ Compacted drop_unused_vertices(const hex::HexMesh& mesh) {
     return compacted;
 }
 
+/// Feature edges likewise.
+std::vector<std::array<std::int64_t, 2>> map_feature_edges(const SplineOptions& options,
+                                                           const std::vector<std::int64_t>& new_vertex) {
+    std::vector<std::array<std::int64_t, 2>> mapped;
+    for (const auto& edge : options.feature_edges) {
+        std::array<std::int64_t, 2> ends = {-1, -1};
+        for (std::size_t i = 0; i < 2; ++i) {
+            if (edge[i] >= 0 && edge[i] < static_cast<std::int64_t>(new_vertex.size()))
+                ends[i] = new_vertex[static_cast<std::size_t>(edge[i])];
+            if (ends[i] < 0)
+                throw Error(ErrorKind::bad_input,
+                            "vertex " + std::to_string(edge[i]) + " of a sharp edge does not exist");
+        }
+        mapped.push_back(ends);
+    }
+    return mapped;
+}
+
 /// Feature vertices of the input as vertices of the compacted mesh; unused ones go, as all inner ones would.
 std::vector<std::int64_t> map_feature_vertices(const SplineOptions& options,
                                                const std::vector<std::int64_t>& new_vertex) {
@@ -102,9 +157,11 @@ SplineResult build(const hex::HexMesh& mesh, const SplineOptions& options, const
     return hex::with_threads(context, [&] {
         hex::Diagnostics diagnostics;
         check_inverted(mesh, options.force, context, diagnostics);
+        check_manifold(mesh, options.force, diagnostics);
         const Compacted compacted = drop_unused_vertices(mesh);
         SplineOptions used = options;
         used.feature_vertices = map_feature_vertices(options, compacted.new_vertex);
+        used.feature_edges = map_feature_edges(options, compacted.new_vertex);
         if (options.levels && static_cast<std::size_t>(*options.levels) < used.refinement.size())
             used.refinement.resize(static_cast<std::size_t>(*options.levels));
         if (!compacted.dropped.empty())
@@ -113,8 +170,9 @@ SplineResult build(const hex::HexMesh& mesh, const SplineOptions& options, const
                  "dropped vertices that no element uses: " + hex::list_ids(compacted.dropped), "vertex",
                  compacted.dropped});
 
-        SplineResult result =
-            builder->build(compacted.dropped.empty() ? mesh : compacted.mesh, used, context);
+        const hex::HexMesh& control = compacted.dropped.empty() ? mesh : compacted.mesh;
+        list_fit_regions(*builder, control, used, context);
+        SplineResult result = builder->build(control, used, context);
         result.report.method = options.method;
         result.report.input_vertices = mesh.vertex_count();
         result.report.input_elements = mesh.cell_count();

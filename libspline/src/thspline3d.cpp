@@ -32,10 +32,26 @@ hex::FeatureSet find_features(const hex::HexMesh& mesh, const hex::EdgeTable& ed
     return hex::no_features(mesh, edges, boundary);
 }
 
+/// With the edges that are sharp besides.
+hex::FeatureSet with_feature_edges(hex::FeatureSet features, const hex::EdgeTable& edges,
+                                   const hex::BoundaryQuads& boundary, const SplineOptions& options) {
+    if (options.feature_edges.empty()) return features;
+    for (const auto& [a, b] : options.feature_edges) {
+        const hex::EdgeId e =
+            edges.find(VertexId(static_cast<std::size_t>(a)), VertexId(static_cast<std::size_t>(b)));
+        if (!e.valid() || edges.boundary[e.index()] == 0)
+            throw hex::Error(hex::ErrorKind::bad_input, "no edge of the boundary joins vertices " +
+                                                            std::to_string(a) + " and " + std::to_string(b));
+        features.sharp_edge[e.index()] = 1;
+    }
+    return hex::classify(edges, boundary, std::move(features.sharp_edge));
+}
+
 LevelMesh input_level(const hex::HexMesh& mesh, const SplineOptions& options) {
     hex::EdgeTable edges = hex::edge_table(mesh);
     hex::BoundaryQuads boundary = hex::boundary_quads(mesh);
-    hex::FeatureSet features = find_features(mesh, edges, boundary, options);
+    hex::FeatureSet features =
+        with_feature_edges(find_features(mesh, edges, boundary, options), edges, boundary, options);
     return coarsest_level(mesh, std::move(edges), std::move(boundary), std::move(features));
 }
 
@@ -214,7 +230,8 @@ class THSpline3D : public SplineBuilder {
             if (l < hierarchy.added.size()) about.added_by_closure = hierarchy.added[l];
             result.report.levels.push_back(about);
             result.levels.push_back({std::move(level.control.mesh), std::move(level.function_active),
-                                     std::move(level.element_active), std::move(level.function)});
+                                     std::move(level.element_active), std::move(level.function),
+                                     std::move(level.refined)});
             level = {};
         }
         result.spline.weights.assign(result.spline.control_points.size(), 1.0);

@@ -77,6 +77,22 @@ class Spline(CommandTest):
         self.assertGreater(report['fit']['distance']['to_surface_max'], 0)
         self.spline('-o', 'a', '--fit', code=2)
 
+    def test_what_the_part_decides_needs_the_part(self):
+        part = ('--surface', ROD / 'rod_patches.k')
+        plain = self.report('-o', 'a')
+        report = self.report('-o', 'a', '--refine', 'worst-fit:5%', *part)
+        self.assertEqual(report['elements'], plain['elements'] + 7 * report['levels'][0]['refined'])
+        self.spline('-o', 'a', '--refine', 'worst-fit:5%', code=2)
+        sharp = {}
+        for source in (0, 3, 4):
+            self.run_program('spline', 'rod.vtk', '-s', source, '-o', 'a', *part, '--json', 'report.json')
+            sharp[source] = json.loads((self.folder / 'report.json').read_text())['sharp_edges']
+        self.assertEqual(sharp[0], 0)
+        self.assertGreater(sharp[3], sharp[4], 'some borders of patches are no sharp edges')
+        self.assertGreater(sharp[4], 0)
+        self.run_program('spline', 'rod.vtk', '-s', 4, '-o', 'a', code=2)
+        self.run_program('spline', 'rod.vtk', '-s', 5, '-o', 'a', code=2)
+
     def test_the_same_bytes_for_any_number_of_threads(self):
         part = ROD / 'rod_tri.k'
         for name, *options in (('a.bext', '--refine', 'worst:5%'), ('a.bxt', '--refine', 'worst:5%'),

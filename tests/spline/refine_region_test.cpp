@@ -2,11 +2,14 @@
 #include "support/test_files.h"
 
 #include <hex/base/error.h>
+#include <hex/surface/polygon_soup.h>
+#include <spline/fit.h>
 #include <spline/refine_region.h>
 #include <spline/spline.h>
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <fstream>
 
 namespace spline::test {
@@ -49,7 +52,7 @@ TEST(RefineRegion, ChoosesTheWorstElements) {
 TEST(RefineRegion, NonsenseIsRefused) {
     for (const std::string text :
          {"", "box", "box:1,2,3", "box:1,2,3,4,5,x", "sphere:0,0,0,-1", "worst:5", "worst:0%", "worst:101%",
-          "near:", "tube:1,2", "sphere:0,0,0,1:0", "sphere:0,0,0,1:x"}) {
+          "near:", "tube:1,2", "worst-fit:5", "worst-fit:0%", "sphere:0,0,0,1:0", "sphere:0,0,0,1:x"}) {
         EXPECT_THROW(parse_region(text), hex::Error) << text;
     }
 }
@@ -75,6 +78,58 @@ TEST(RefineRegion, LevelsFollowEachOther) {
     options.regions[0].level = 1;
     EXPECT_EQ(build(hex::test::grid(6, 6, 6), options).spline.rows.values,
               build(hex::test::grid(6, 6, 6), listed).spline.rows.values);
+}
+
+/// A box with a bump on its upper side, at (7, 2).
+hex::TriangleMesh box_with_bump() {
+    hex::PolygonSoup soup = hex::test::box_surface(9, 9, 3, 18);
+    for (hex::Vec3& p : soup.points) {
+        if (p.z() == 3.0) p.z() += 0.5 * std::exp(-(p - hex::Vec3(7, 2, 3)).squaredNorm());
+    }
+    return hex::make_triangle_mesh(soup);
+}
+
+TEST(RefineRegion, ChoosesWhereTheSplineIsFarthestFromThePart) {
+    const hex::HexMesh mesh = hex::test::grid(9, 9, 3);
+    const hex::TriangleMesh part = box_with_bump();
+    SplineOptions options;
+    options.features = hex::FeatureSource::angle;
+    options.regions = {parse_region("worst-fit:2%")};
+    EXPECT_THROW(build(mesh, options), hex::Error) << "without a part nobody knows";
+
+    std::vector<std::size_t> asked;
+    options.closure = false;
+    options.fit_errors = [&](const BezierSpline& s) {
+        asked.push_back(s.element_count());
+        return fit_errors(s, part);
+    };
+    const SplineResult result = build(mesh, options);
+    EXPECT_EQ(asked, std::vector<std::size_t>{243U});
+    ASSERT_EQ(result.levels[0].refined.size(), 5U) << "2 % of 243, rounded up";
+    for (const hex::CellId c : result.levels[0].refined) {
+        const hex::Vec3 centre = mesh.position(mesh.corner(c, 0)) + 0.5 * hex::Vec3::Ones();
+        EXPECT_EQ(centre.z(), 2.5);
+        EXPECT_LT((centre - hex::Vec3(7, 2, 2.5)).norm(), 2.0);
+    }
+    // A finer level is judged on the spline that the coarser one gives.
+    options.regions = {parse_region("worst-fit:2%:2")};
+    const SplineResult finer = build(mesh, options);
+    ASSERT_EQ(asked.size(), 3U);
+    EXPECT_EQ(asked[2], 243U + 5U * 7U);
+    ASSERT_EQ(finer.levels.size(), 3U);
+    EXPECT_EQ(finer.levels[1].refined.size(), 1U) << "2 % of 40";
+}
+
+TEST(RefineRegion, InnerElementsAreNotOffThePart) {
+    const BezierSpline s = build(hex::test::grid(3, 3, 3)).spline;
+    const auto errors = fit_errors(s, hex::make_triangle_mesh(hex::test::box_surface(3, 3, 3, 2)));
+    for (std::size_t e = 0; e < errors.size(); ++e) {
+        if (e == 13)
+            EXPECT_EQ(errors[e], -1.0);
+        else
+            EXPECT_GE(errors[e], 0.0) << e;
+    }
+    EXPECT_GT(errors[0], 0.1) << "the smooth spline shrinks away from corners";
 }
 
 TEST(RefineRegion, ClosureIsTold) {

@@ -106,6 +106,31 @@ TEST(Spline, InvertedElementsAreNamedUnlessForced) {
     EXPECT_TRUE(has_code(build(mesh, options).report.diagnostics, "inverted-elements"));
 }
 
+TEST(Spline, ElementsThatOnlyTouchAreAnError) {
+    // Two opposite corners of a square of four cubes, then two of a cube of eight.
+    for (const bool edge : {true, false}) {
+        const hex::HexMesh grid = hex::test::grid(2, 2, edge ? 1 : 2);
+        std::vector<hex::HexCell> cells = {grid.cell(hex::CellId(0U)),
+                                           grid.cell(hex::CellId(edge ? 3U : 7U))};
+        const hex::HexMesh mesh({grid.positions().begin(), grid.positions().end()}, cells);
+        SplineOptions options;
+        try {
+            build(mesh, options);
+            ADD_FAILURE() << "must be refused";
+        } catch (const hex::Error& error) {
+            EXPECT_EQ(error.kind(), hex::ErrorKind::bad_input);
+            EXPECT_NE(error.problem().find("2 elements only touch"), std::string::npos) << error.what();
+            EXPECT_NE(error.problem().find(edge ? "4-13" : "13"), std::string::npos) << error.what();
+            EXPECT_NE(error.problem().find("0, 1"), std::string::npos) << error.what();
+        }
+        options.force = true;
+        const SplineReport report = build(mesh, options).report;
+        EXPECT_TRUE(has_code(report.diagnostics, "non-manifold"));
+        EXPECT_EQ(report.summary.elements, 2U);
+        EXPECT_LE(report.summary.partition_of_unity_error, 1e-14);
+    }
+}
+
 TEST(Spline, WrongOptionsAreUsageErrors) {
     const hex::HexMesh mesh = hex::test::grid(2, 2, 2);
     const auto kind_of = [&](const SplineOptions& options) {

@@ -39,6 +39,11 @@ struct FitReport {
 FitReport fit(BezierSpline& spline, JacobianReport& verdict, const hex::TriangleMesh& surface,
               const FitOptions& options = {}, const hex::Context& context = {});
 
+/// How far each element is off: the largest distance of its samples from the surface, and of the surface's
+/// samples that are closest to it; -1 for elements without a face on the boundary.
+std::vector<double> fit_errors(const BezierSpline& spline, const hex::TriangleMesh& surface,
+                               const hex::Context& context = {});
+
 /// Only measures.
 FitDistance fit_distance(const BezierSpline& spline, const hex::TriangleMesh& surface,
                          const hex::Context& context = {});

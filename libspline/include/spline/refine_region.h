@@ -18,6 +18,9 @@ struct RefineRegion {
         points,   ///< for each point the element around or nearest to it
         patches,  ///< elements with a face on one of these patches (LevelMesh::patch_of_quad)
         worst,    ///< the `share` of the elements with the least scaled Jacobian, at least one
+        /// The `share` of the elements whose boundary is farthest from the part, at least one; only
+        /// `spline::build` can tell, by SplineOptions::fit_errors.
+        worst_fit,
     };
     Kind kind = Kind::box;
     hex::BoundingBox box;
@@ -30,12 +33,14 @@ struct RefineRegion {
 };
 
 /// The elements (0-based, ascending) of the first `domain_cells` of a level that a region asks to divide.
+/// None for `worst_fit`.
 std::vector<std::int64_t> elements_in(const RefineRegion& region, const LevelMesh& level,
                                       std::size_t domain_cells);
 
 /// Parses `box:x0,y0,z0,x1,y1,z1[:level]`, `sphere:x,y,z,radius[:level]`, `near:FILE[:level]`,
-/// `worst:N%[:level]`. FILE has a point `x y z` or a 0-based patch number on each line; '#' starts a comment.
-/// Throws Error{usage} for anything else, Error{bad_input} with `file:line` for the file.
+/// `worst:N%[:level]`, `worst-fit:N%[:level]`. FILE has a point `x y z` or a 0-based patch number on each
+/// line; '#' starts a comment. Throws Error{usage} for anything else, Error{bad_input} with `file:line` for
+/// the file.
 RefineRegion parse_region(const std::string& text);
 
 }  // namespace spline

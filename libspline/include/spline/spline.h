@@ -16,7 +16,9 @@
 #include <spline/level_mesh.h>
 #include <spline/refine_region.h>
 
+#include <array>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -33,6 +35,9 @@ struct SplineOptions {
     double feature_cosine = 0.8;
     /// For FeatureSource::list: 0-based vertices of the input mesh (sharp.txt).
     std::vector<std::int64_t> feature_vertices;
+    /// Boundary edges that are sharp besides, each by its two vertices of the input mesh
+    /// (surface_features.h).
+    std::vector<std::array<std::int64_t, 2>> feature_edges;
     /// Times that all elements are divided into eight before anything else, >= 0.
     int global_refinements = 0;
     /// Entry l: elements of level l to refine (lev_rfid.txt), 0-based in the cell order of that level's mesh.
@@ -40,6 +45,10 @@ struct SplineOptions {
     std::vector<std::vector<std::int64_t>> refinement;
     /// Elements to refine by what they are or where, besides those listed; applied after the lists.
     std::vector<RefineRegion> regions;
+    /// For RefineRegion::Kind::worst_fit: how far each element of a spline is off the part, negative for
+    /// those that cannot be. Called with the spline as it is before such regions are refined, for each level
+    /// anew.
+    std::function<std::vector<double>(const BezierSpline&)> fit_errors;
     /// Use only the first so many entries of `refinement`.
     std::optional<int> levels;
     /// Complete the lists so that functions are continuous across levels (hierarchy.h). Without it the lists
@@ -48,7 +57,7 @@ struct SplineOptions {
     /// Names of the files that `feature_vertices` and `refinement` come from, for messages; may be empty.
     std::string feature_origin;
     std::string refinement_origin;
-    /// Go on with inverted elements.
+    /// Go on with inverted elements, and with elements that meet others at an edge or a vertex only.
     bool force = false;
 };
 
@@ -58,6 +67,8 @@ struct ControlMesh {
     std::vector<char> function_active;    ///< one flag a vertex
     std::vector<char> element_active;     ///< one flag a cell
     std::vector<std::uint32_t> function;  ///< control point of an active vertex, else 0xffffffff
+    std::vector<hex::CellId>
+        refined;  ///< divided cells; cells 8 k .. 8 k + 7 of the next level are of the k-th
 };
 
 struct LevelReport {
@@ -98,9 +109,10 @@ class SplineBuilder {
 hex::Registry<SplineBuilder>& spline_builders();
 
 /// Checks options and mesh and runs `options.method`. Vertices that no cell uses are dropped.
-/// Throws Error{usage} for options out of range; Error{bad_input} for an empty mesh, inverted elements
-/// (named; unless `force`), feature vertices or elements to refine that do not exist, or whose parent is not
-/// refined.
+/// Throws Error{usage} for options out of range, and for a region worst_fit without `fit_errors`;
+/// Error{bad_input} for an empty mesh, for inverted elements and for elements that meet others at an edge or
+/// a vertex only (both named; unless `force`), for feature vertices, feature edges or elements to refine that
+/// do not exist, or whose parent is not refined.
 SplineResult build(const hex::HexMesh& mesh, const SplineOptions& options = {},
                    const hex::Context& context = {});
 

@@ -9,6 +9,8 @@
 #include <hex/base/error.h>
 #include <hex/io/list_file.h>
 #include <hex/io/mesh_file.h>
+#include <hex/io/surface_file.h>
+#include <hex/surface/polygon_soup.h>
 #include <spline/fit.h>
 #include <spline/io/bext.h>
 #include <spline/io/bext2.h>
@@ -19,9 +21,11 @@
 #include <spline/jacobian.h>
 #include <spline/repair.h>
 #include <spline/spline.h>
+#include <spline/surface_features.h>
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 namespace cli {
 namespace {
@@ -71,14 +75,55 @@ std::filesystem::path beside_input(const CommandLine& line, const std::string& o
     return path.replace_filename(name);
 }
 
-spline::SplineOptions options_of(const CommandLine& line) {
-    spline::SplineOptions options;
-    options.method = line.get<std::string>("method");
-    switch (line.get<int>("sharp")) {
+/// The part, when --surface is given.
+struct Part {
+    std::optional<hex::TriangleMesh> surface;
+    std::vector<spline::Segment> sharp_edges;  ///< a CAD model's own, else by -t
+};
+
+Part load_part(const CommandLine& line) {
+    if (!line.given("surface")) return {};
+    const std::filesystem::path path = line.get<std::string>("surface");
+    hex::io::SurfaceFile file = hex::io::read_surface(path);
+    line.log(file.diagnostics);
+    Part part;
+    try {
+        part.surface = hex::make_triangle_mesh(file.soup);
+        line.log(hex::inspect(*part.surface), path.string());
+    } catch (const hex::Error& error) {
+        throw error.located(path.string());
+    }
+    if (file.sharp_edges.empty()) {
+        part.sharp_edges = spline::sharp_segments(*part.surface, line.get<double>("tolerance"));
+    } else {
+        for (const auto& [a, b] : file.sharp_edges)
+            part.sharp_edges.push_back({file.soup.points[a], file.soup.points[b]});
+    }
+    return part;
+}
+
+/// -s, and the part's sharp edges, which --fit adds to any that -s asks for.
+void add_features(const CommandLine& line, const hex::HexMesh& mesh, const Part& part,
+                  spline::SplineOptions& options) {
+    options.feature_cosine = line.get<double>("tolerance");
+    line.require_range("tolerance", options.feature_cosine, -1.0, 1.0);
+    const int sharp = line.given("sharp") ? line.get<int>("sharp") : line.is_set("fit") ? 4 : 0;
+    if (sharp > 0 && line.is_set("fit")) options.feature_edges = spline::edges_along(mesh, part.sharp_edges);
+    switch (sharp) {
         case 0:
             break;
         case 1:
             options.features = hex::FeatureSource::angle;
+            break;
+        case 3: {
+            const auto edges = part.surface ? spline::edges_between_patches(mesh, *part.surface)
+                                            : spline::edges_between_parts(mesh);
+            options.feature_edges.insert(options.feature_edges.end(), edges.begin(), edges.end());
+            break;
+        }
+        case 4:
+            if (!part.surface) throw hex::Error(hex::ErrorKind::usage, "-s 4 needs --surface");
+            options.feature_edges = spline::edges_along(mesh, part.sharp_edges);
             break;
         case 2: {
             options.features = hex::FeatureSource::list;
@@ -88,10 +133,15 @@ spline::SplineOptions options_of(const CommandLine& line) {
             break;
         }
         default:
-            throw hex::Error(hex::ErrorKind::usage, "-s must be 0 (none), 1 (by angle) or 2 (from file)");
+            throw hex::Error(hex::ErrorKind::usage,
+                             "-s must be 0 (none), 1 (by angle), 2 (from file), 3 (patch borders) or 4 "
+                             "(sharp edges of --surface)");
     }
-    options.feature_cosine = line.get<double>("tolerance");
-    line.require_range("tolerance", options.feature_cosine, -1.0, 1.0);
+}
+
+spline::SplineOptions options_of(const CommandLine& line) {
+    spline::SplineOptions options;
+    options.method = line.get<std::string>("method");
     options.global_refinements = line.get<int>("global");
     line.require_range("global", options.global_refinements, 0, 10);
     if (line.given("local")) {
@@ -169,15 +219,21 @@ Json to_json(const spline::JacobianReport& report) {
             {"undecided_elements", report.undecided}};
 }
 
+/// Mended unless --no-repair.
+spline::RepairReport mend(const CommandLine& line, spline::BezierSpline& spline,
+                          spline::JacobianReport& verdict) {
+    spline::RepairOptions options;
+    options.max_deviation = line.get<double>("max-deviation");
+    line.require_range("max-deviation", options.max_deviation, 0.0, 100.0);
+    return spline::repair_jacobian(spline, verdict, options, line.context());
+}
+
 /// What is known of the Jacobians, mended unless --no-repair, and what that moved.
 Json settle_jacobians(const CommandLine& line, spline::SplineResult& result,
                       spline::JacobianReport& verdict) {
     Json report;
     if (!line.is_set("no-repair")) {
-        spline::RepairOptions options;
-        options.max_deviation = line.get<double>("max-deviation");
-        line.require_range("max-deviation", options.max_deviation, 0.0, 100.0);
-        const auto repair = spline::repair_jacobian(result.spline, verdict, options, line.context());
+        const auto repair = mend(line, result.spline, verdict);
         spline::update_control_meshes(result);
         report = {{"negative_before", repair.negative_before},
                   {"undecided_before", repair.undecided_before},
@@ -215,12 +271,10 @@ Json to_json(const spline::FitDistance& distance) {
 }
 
 /// With --fit the boundary is moved onto --surface; without, it is only measured.
-Json fit_to_surface(const CommandLine& line, spline::SplineResult& result, spline::JacobianReport& verdict) {
-    if (!line.given("surface")) {
-        if (line.is_set("fit")) throw hex::Error(hex::ErrorKind::usage, "--fit needs --surface");
-        return {};
-    }
-    const hex::TriangleMesh surface = load_triangles(line, line.get<std::string>("surface"));
+Json fit_to_surface(const CommandLine& line, const Part& part, spline::SplineResult& result,
+                    spline::JacobianReport& verdict) {
+    if (!part.surface) return {};
+    const hex::TriangleMesh& surface = *part.surface;
     if (!line.is_set("fit"))
         return {{"distance", to_json(spline::fit_distance(result.spline, surface, line.context()))}};
     const auto report = spline::fit(result.spline, verdict, surface, {}, line.context());
@@ -274,8 +328,22 @@ std::string write_deck(const CommandLine& line, const std::filesystem::path& bex
 int run(CommandLine& line) {
     const Format format = output_format(line);
     const auto path = output_path(line, format);
-    const spline::SplineOptions options = options_of(line);
+    if (line.is_set("fit") && !line.given("surface"))
+        throw hex::Error(hex::ErrorKind::usage, "--fit needs --surface");
+    spline::SplineOptions options = options_of(line);
     const hex::HexMesh mesh = load_hexahedra(line, line.input());
+    const Part part = load_part(line);
+    add_features(line, mesh, part, options);
+    // Judged as the spline would be without this refinement, fitted when --fit is given.
+    if (part.surface)
+        options.fit_errors = [&](const spline::BezierSpline& unrefined) {
+            if (!line.is_set("fit")) return spline::fit_errors(unrefined, *part.surface, line.context());
+            spline::BezierSpline fitted = unrefined;
+            spline::JacobianReport verdict = spline::certify(fitted, {}, line.context());
+            if (!line.is_set("no-repair")) mend(line, fitted, verdict);
+            spline::fit(fitted, verdict, *part.surface, {}, line.context());
+            return spline::fit_errors(fitted, *part.surface, line.context());
+        };
     spline::SplineResult result;
     try {
         result = spline::build(mesh, options, line.context());
@@ -285,7 +353,7 @@ int run(CommandLine& line) {
     line.log(result.report.diagnostics, line.input().string());
     spline::JacobianReport verdict = spline::certify(result.spline, {}, line.context());
     const Json repair = settle_jacobians(line, result, verdict);
-    const Json fit = fit_to_surface(line, result, verdict);
+    const Json fit = fit_to_surface(line, part, result, verdict);
 
     write_spline(line, path, format, result.spline);
     const std::string deck = write_deck(line, path, format, result.spline);
@@ -313,8 +381,11 @@ void describe(CommandLine& line) {
     line.add_output(
         "spline: .vtu, .json, .bxt (BEXT 2.0), else BEXT 1; default: INPUT_BEXT.txt beside the input", false);
     line.add_switch("spline,S", "accepted, as the paper writes it");
-    line.add("sharp,s", value<int>("0|1|2")->default_value(0),
-             "sharp features: none, by angle, from --sharp-file");
+    line.add(
+        "sharp,s", value<int>("0|1|2|3|4")->default_value(0),
+        "sharp features: none, by angle, from --sharp-file, borders of the patches of --surface (without "
+        "it: of the mesh's parts), sharp edges of --surface (with --fit these are the default, and join "
+        "those of 1 to 3)");
     line.add("tolerance,t", value<double>("COS")->default_value(0.8, "0.8"),
              "cosine of the angle between normals below which an edge is sharp");
     line.add("sharp-file", value<std::string>(),
@@ -327,7 +398,8 @@ void describe(CommandLine& line) {
     line.add(
         "refine", boost::program_options::value<std::vector<std::string>>()->composing()->value_name("WHERE"),
         "refine box:x0,y0,z0,x1,y1,z1[:level], sphere:x,y,z,radius[:level], near:FILE[:level] (points or "
-        "patch numbers) or worst:N%[:level]; may be repeated");
+        "patch numbers), worst:N%[:level] (least quality) or worst-fit:N%[:level] (farthest from --surface); "
+        "may be repeated");
     line.add_switch("no-closure",
                     "refine exactly what is listed, though the spline may not be continuous then");
     line.add("format", value<std::string>("bext|bext2|vtu|json"),
@@ -342,7 +414,7 @@ void describe(CommandLine& line) {
     line.add_switch("no-repair", "leave elements that fold as they are");
     line.add("max-deviation", value<double>("PCT")->default_value(1.0, "1"),
              "how far mending may move control points of the boundary, in percent of the diagonal");
-    line.add_switch("force", "go on with inverted elements");
+    line.add_switch("force", "go on with inverted elements, and with elements that only touch others");
     line.add("method", value<std::string>("NAME")->default_value("thspline3d"), "see hexspline plugins");
 }
 
