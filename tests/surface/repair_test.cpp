@@ -129,6 +129,58 @@ TEST(Repair, SplitsWhatIsNotManifold) {
     }
 }
 
+/// A cube of squares, two of which are split along a bent path: its inner points have two polygons each.
+TEST(Repair, RemovesPointsThatHaveTwoPolygonsOnly) {
+    PolygonSoup soup;
+    soup.points = {{0, 0, 0}, {1, 0, 0}, {1, 1, 0},   {0, 1, 0},   {0, 0, 1},  {1, 0, 1},
+                   {1, 1, 1}, {0, 1, 1}, {.5, .4, 1}, {.5, .6, 1}, {.5, .5, 0}};
+    const auto add = [&](std::vector<std::uint32_t> corners, int part) { soup.add_polygon(corners, part); };
+    add({4, 5, 6, 9, 8}, 1);
+    add({4, 8, 9, 6, 7}, 1);
+    add({0, 3, 2, 10}, 2);
+    add({0, 10, 2, 1}, 2);
+    add({0, 1, 5, 4}, 3);
+    add({2, 3, 7, 6}, 4);
+    add({1, 2, 6, 5}, 5);
+    add({0, 4, 7, 3}, 6);
+    EXPECT_THROW(make_triangle_mesh(soup), Error);
+    const RepairReport report = repair(soup);
+    EXPECT_EQ(report.removed_points, 3U);
+    EXPECT_TRUE(report.changed());
+    ASSERT_EQ(describe(report).size(), 1U);
+    EXPECT_EQ(describe(report)[0].code, "repair-doublet");
+    EXPECT_EQ(soup.points.size(), 8U);
+    EXPECT_EQ(soup.size(), 8U);
+    EXPECT_EQ(std::set<int>(soup.parts.begin(), soup.parts.end()), (std::set<int>{1, 2, 3, 4, 5, 6}));
+    EXPECT_NEAR(enclosed_volume(make_triangle_mesh(soup)), 1.0, 1e-12);
+}
+
+/// Point 4 lies between two squares whose corners 0 and 1 have an edge on the other side, too: without the
+/// point that edge would have four polygons.
+TEST(Repair, KeepsAPointWhoseNeighboursAreJoinedElsewhere) {
+    PolygonSoup soup;
+    soup.points = {{0, 0, 0}, {2, 0, 0}, {1, 1, 0}, {1, -1, 0}, {1, 0, 1}, {1, .3, -1}, {1, -.3, -1}};
+    const auto add = [&](std::vector<std::uint32_t> corners) { soup.add_polygon(corners); };
+    add({0, 4, 1, 2});
+    add({1, 4, 0, 3});
+    add({0, 2, 5});
+    add({2, 1, 5});
+    add({1, 0, 5});
+    add({1, 3, 6});
+    add({3, 0, 6});
+    add({0, 1, 6});
+    const RepairReport report = repair(soup);
+    EXPECT_EQ(report.removed_points, 0U);
+    EXPECT_EQ(report.holes_left, 0U);
+    try {
+        make_triangle_mesh(soup);
+        ADD_FAILURE();
+    } catch (const Error& error) {
+        EXPECT_EQ(error.kind(), ErrorKind::bad_input);
+        EXPECT_NE(std::string(error.what()).find("at vertices 4"), std::string::npos) << error.what();
+    }
+}
+
 TEST(Repair, NothingToMakeASurfaceOf) {
     PolygonSoup soup;
     soup.points = {{0, 0, 0}, {1, 0, 0}};

@@ -11,6 +11,7 @@
 #include <CGAL/Polygon_mesh_processing/stitch_borders.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_hole.h>
 #include <CGAL/Surface_mesh.h>
+#include <CGAL/boost/graph/Euler_operations.h>
 
 #include <algorithm>
 #include <set>
@@ -111,6 +112,37 @@ void fill_holes(Mesh& mesh, Mesh::Property_map<Mesh::Face_index, int>& parts, do
     }
 }
 
+/// Removes inner vertices that have two polygons only: a diagonal that cuts such a vertex off would lie in
+/// both. The polygons then meet in one edge, or, if one was a triangle, become one. That takes an edge away
+/// from both neighbours, which are looked at again. Where it would give an edge a second time, or leave
+/// nothing of two triangles, the vertex stays.
+std::size_t remove_doublets(Mesh& mesh) {
+    std::size_t removed = 0;
+    std::vector<Mesh::Vertex_index> waiting(mesh.vertices().begin(), mesh.vertices().end());
+    while (!waiting.empty()) {
+        const Mesh::Vertex_index v = waiting.back();
+        waiting.pop_back();
+        if (mesh.is_removed(v) || mesh.is_border(v) || mesh.degree(v) != 2) continue;
+        const Mesh::Halfedge_index h = mesh.halfedge(v);
+        const Mesh::Halfedge_index other = mesh.opposite(mesh.next(h));
+        const Mesh::Vertex_index a = mesh.source(h);
+        const Mesh::Vertex_index b = mesh.source(other);
+        const auto corners = std::minmax({mesh.degree(mesh.face(h)), mesh.degree(mesh.face(other))});
+        if (corners.second < 4) continue;
+        if (corners.first == 3)
+            CGAL::Euler::remove_center_vertex(h, mesh);
+        else if (!CGAL::halfedge(a, b, mesh).second)
+            CGAL::Euler::join_vertex(mesh.opposite(h), mesh);
+        else
+            continue;
+        ++removed;
+        waiting.push_back(a);
+        waiting.push_back(b);
+    }
+    mesh.collect_garbage();
+    return removed;
+}
+
 PolygonSoup soup_of(const Mesh& mesh, const Mesh::Property_map<Mesh::Face_index, int>& parts) {
     PolygonSoup soup;
     for (const Mesh::Vertex_index v : mesh.vertices()) {
@@ -168,6 +200,7 @@ RepairReport repair(PolygonSoup& soup, const RepairOptions& options) {
     close_cuts(mesh);
     report.split_points = mesh.number_of_vertices() - std::min<std::size_t>(count, mesh.number_of_vertices());
     fill_holes(mesh, parts, options.longest_hole * box.diagonal(), report);
+    report.removed_points = remove_doublets(mesh);
 
     soup = soup_of(mesh, parts);
     if (report.holes_left == 0 && volume_of(soup) < 0.0) {
@@ -193,6 +226,7 @@ Diagnostics describe(const RepairReport& report) {
     tell(report.split_points, "repair-manifold", " points split where the surface was not manifold");
     tell(report.filled_holes, "repair-hole",
          " holes filled with " + std::to_string(report.filling_triangles) + " triangles");
+    tell(report.removed_points, "repair-doublet", " points removed that only two polygons had");
     tell(report.holes_left, "hole-left", " holes left: too long to fill", Severity::warning);
     return findings;
 }

@@ -24,11 +24,12 @@ struct RepairReport {
     std::size_t split_points = 0;         ///< copies made where the surface was not manifold
     std::size_t filled_holes = 0;
     std::size_t filling_triangles = 0;
-    std::size_t holes_left = 0;  ///< too long, or impossible to fill
+    std::size_t removed_points = 0;  ///< inner points of two polygons only
+    std::size_t holes_left = 0;      ///< too long, or impossible to fill
 
     bool changed() const {
         return merged_points + degenerate_polygons + duplicate_polygons + unused_points + turned_polygons +
-                   split_points + filled_holes >
+                   split_points + filled_holes + removed_points >
                0;
     }
 };
@@ -38,7 +39,8 @@ Diagnostics describe(const RepairReport& report);
 
 /// Repairs in place with CGAL's Polygon_mesh_processing: merges equal points, removes degenerate and
 /// duplicate polygons, orients neighbours alike, splits edges and points where the surface is not manifold,
-/// fills small holes and turns the surface outwards. Polygons keep their part; the triangles of a hole get
+/// fills small holes, removes inner points of two polygons only (which could not be split into triangles
+/// that fit), and turns the surface outwards. Polygons keep their part; the triangles of a hole get
 /// that of a neighbour. The surface may still be open afterwards: `holes_left`.
 ///
 /// Throws Error{no_result} when CGAL cannot make a surface of the polygons.
