@@ -21,7 +21,8 @@ std::array<Vec3, 64> element_points(const BezierSpline& spline, std::size_t elem
 }
 
 JacobianPenalty::JacobianPenalty(const BezierSpline& spline, std::vector<std::uint32_t> elements,
-                                 std::span<const ElementJacobian> verdicts, double margin, double keep)
+                                 std::span<const ElementJacobian> verdicts, double margin, double keep,
+                                 double reach)
     : spline_(spline),
       elements_(std::move(elements)),
       volumes_(elements_.size()),
@@ -50,6 +51,13 @@ JacobianPenalty::JacobianPenalty(const BezierSpline& spline, std::vector<std::ui
             margins_[i] = margin * volumes_[i];
             if (verdict.verdict == JacobianVerdict::positive && least > 0.0)
                 margins_[i] = std::min(margins_[i], keep * least);
+            // A small margin is as dear as a large one, but not beyond what rounding lets one see.
+            if (const double enough = reach * std::abs(verdict.lower);
+                verdict.verdict != JacobianVerdict::positive && enough < margins_[i]) {
+                const double less = std::max(enough / margins_[i], 1e-8);
+                margins_[i] *= less;
+                weights_[i] = 1.0 / (less * less);
+            }
         },
         8);
 }

@@ -8,6 +8,7 @@
 #include <spline/bezier.h>
 #include <spline/jacobian.h>
 
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -18,9 +19,12 @@ class JacobianPenalty {
   public:
     /// Of some elements of a polynomial spline. An element whose `verdicts` entry is positive is only kept
     /// from getting worse: its margin is at most `keep` of its least coefficient. The margin of the others is
-    /// `margin` times their volume. Coefficients that are zero by construction (singular edges) do not count.
+    /// `margin` times their volume, or `reach` times the amount by which they fail, where that is less: what
+    /// hardly folds then need not become thick. Coefficients that are zero by construction (singular edges)
+    /// do not count.
     JacobianPenalty(const BezierSpline& spline, std::vector<std::uint32_t> elements,
-                    std::span<const ElementJacobian> verdicts, double margin, double keep);
+                    std::span<const ElementJacobian> verdicts, double margin, double keep,
+                    double reach = INFINITY);
 
     /// The penalty at other positions of the control points. Where `variable[f]` >= 0 the derivatives by
     /// control point f are added to gradient[variable[f]].
@@ -28,8 +32,6 @@ class JacobianPenalty {
                     std::vector<hex::Vec3>& gradient) const;
 
     std::span<const std::uint32_t> elements() const { return elements_; }
-    /// Makes one element count more.
-    void raise_weight(std::size_t i, double factor) { weights_[i] *= factor; }
 
   private:
     double element_penalty(std::size_t i, std::span<const hex::Vec3> control_points,

@@ -69,6 +69,7 @@ struct Freedom {
     double margin = 0.02;         ///< of the volume, for elements to mend
     double keep = 0.5;            ///< of the least coefficient, for elements that are good
     double cost_of_moves = 1e-4;  ///< of one local length, squared
+    double reach = INFINITY;      ///< of what an element fails by: enough when this is less than the margin
 };
 
 class Repair {
@@ -103,6 +104,7 @@ class Repair {
             freedom.cost_of_moves = round == 0 ? 1e-3 : 1e-4 * std::pow(0.5, round);
             freedom.margin = round < 4 ? 0.02 : 0.04;
             freedom.keep = round < 4 ? 0.5 : 0.25;
+            if (round >= 6) freedom.reach = round < 8 ? 10.0 : 1000.0;
             std::vector<char> may_move(on_boundary_.size());
             for (std::size_t f = 0; f < may_move.size(); ++f)
                 may_move[f] = on_boundary_[f] == 0 || freedom.boundary;
@@ -189,7 +191,7 @@ class Repair {
         for (std::size_t i = 0; i < group.functions.size(); ++i)
             variable[group.functions[i]] = static_cast<std::int32_t>(i);
         const JacobianPenalty penalty(spline_, group.elements, verdict_.elements, freedom.margin,
-                                      freedom.keep);
+                                      freedom.keep, freedom.reach);
         std::vector<Vec3> positions = spline_.control_points;
         const auto count = static_cast<Eigen::Index>(group.functions.size());
         Eigen::VectorXd x(3 * count);

@@ -77,6 +77,33 @@ TEST(Repair, MovesTheBoundaryOnlyAsFarAsAllowed) {
     }
 }
 
+TEST(Repair, WhatHardlyFoldsIsMendedByHardlyMoving) {
+    // A smooth edge of the boundary with one element: the determinant is zero there, and tiny beside it. The
+    // bend of the side is made just large enough for a fold.
+    const BezierSpline smooth = build(hex::test::grid(4, 4, 4)).spline;
+    const auto bent = [&](double amount) {
+        BezierSpline s = smooth;
+        for (Vec3& p : s.control_points) {
+            if (p.x() == 0.0 && p.y() == 2.0 && p.z() == 0.0) p += amount * Vec3(1.0, 0.0, 0.3);
+        }
+        return s;
+    };
+    double sound = 0.0, folded = 3.0;
+    ASSERT_FALSE(certify(bent(folded)).proved());
+    while (folded - sound > 1e-6) {
+        const double middle = 0.5 * (sound + folded);
+        (certify(bent(middle)).proved() ? sound : folded) = middle;
+    }
+    BezierSpline s = bent(folded);
+    JacobianReport verdict = certify(s);
+    ASSERT_FALSE(verdict.proved());
+    RepairOptions options;
+    options.max_deviation = 0.1;
+    const RepairReport report = repair_jacobian(s, verdict, options);
+    EXPECT_TRUE(verdict.proved());
+    EXPECT_TRUE(report.unmended.empty());
+}
+
 TEST(Repair, NamesWhatCannotBeMended) {
     // A corner of the box turned inside out: its element is negative at the corner whatever the inside does.
     BezierSpline s = folded_box(Vec3(0, 0, 0), Vec3(2, 2, 2));
