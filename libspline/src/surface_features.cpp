@@ -79,6 +79,7 @@ class SharpEdges {
     }
 
     std::vector<Segment> segments() {
+        drop_specks();
         for (const auto v : surface_.vertices()) {
             if (!is_corner(v)) continue;
             for (const auto h : surface_.voh_range(v))
@@ -117,6 +118,35 @@ class SharpEdges {
             if (sharp_[index(surface_.edge_handle(h))] != 0) directions.push_back(direction(h));
         if (directions.size() == 2) return -directions[0].dot(directions[1]) < bend_cosine;
         return !directions.empty();
+    }
+
+    /// Sharp edges that hang together, but are few and have an open end, are not sharp.
+    void drop_specks() {
+        constexpr std::size_t fewest = 6;
+        std::vector<char> seen(surface_.n_vertices(), 0);
+        for (const auto start : surface_.vertices()) {
+            if (seen[static_cast<std::size_t>(start.idx())] != 0) continue;
+            std::vector<OpenMesh::VertexHandle> reached = {start};
+            seen[static_cast<std::size_t>(start.idx())] = 1;
+            std::set<std::size_t> edges;
+            bool open = false;
+            for (std::size_t i = 0; i < reached.size(); ++i) {
+                std::size_t sharp_here = 0;
+                for (const auto h : surface_.voh_range(reached[i])) {
+                    const std::size_t e = index(surface_.edge_handle(h));
+                    if (sharp_[e] == 0) continue;
+                    ++sharp_here;
+                    edges.insert(e);
+                    const auto next = surface_.to_vertex_handle(h);
+                    char& flag = seen[static_cast<std::size_t>(next.idx())];
+                    if (flag == 0) reached.push_back(next);
+                    flag = 1;
+                }
+                open = open || sharp_here == 1;
+            }
+            if (!open || edges.size() >= fewest) continue;
+            for (const std::size_t e : edges) sharp_[e] = 0;
+        }
     }
 
     /// Along weak edges to the next corner; without one nothing is joined.

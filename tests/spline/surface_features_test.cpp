@@ -74,6 +74,16 @@ TEST(SurfaceFeatures, WeakEdgesJoinCorners) {
     EXPECT_EQ(sharp_segments(frustum(20, 0.2), 0.8).size(), 40U);
 }
 
+TEST(SurfaceFeatures, ShortRidgesAreNoise) {
+    // A ridge of two edges on the upper side; both its ends are open.
+    hex::PolygonSoup soup = hex::test::box_surface(4, 4, 4, 8);
+    for (Vec3& p : soup.points)
+        if (p.x() == 2.0 && std::abs(p.y() - 2.0) < 0.6 && p.z() == 4.0) p.z() = 4.22;
+    const hex::TriangleMesh ridge = hex::make_triangle_mesh(soup);
+    EXPECT_EQ(sharp_segments(ridge, 0.8).size(), 96U);
+    EXPECT_GT(sharp_segments(ridge, 0.95).size(), 96U) << "its foot is a closed line";
+}
+
 TEST(SurfaceFeatures, OnlyOneSideOfAThinRowIsSharp) {
     hex::HexMesh mesh = hex::test::grid(4, 4, 4);
     for (const hex::VertexId v : mesh.vertices()) {

@@ -26,9 +26,10 @@ std::vector<VertexPair> edges_between_parts(const hex::HexMesh& mesh);
 /// points of it have their closest triangle, of equally many on the part of the smaller number.
 std::vector<VertexPair> edges_between_patches(const hex::HexMesh& mesh, const hex::TriangleMesh& surface);
 
-/// Edges of a surface whose triangles' normals have a cosine below `cosine`. Where such edges meet at a
-/// corner, or bend there, also chains of weaker edges (below 0.94) from one corner to another: a part's edges
-/// seldom have one angle all along.
+/// Edges of a surface whose triangles' normals have a cosine below `cosine`; fewer than six that hang
+/// together and have an open end are noise and left out. Where such edges meet at a corner, or bend there,
+/// also chains of weaker edges (below 0.94) from one corner to another: a part's edges seldom have one angle
+/// all along.
 std::vector<Segment> sharp_segments(const hex::TriangleMesh& surface, double cosine);
 
 /// Edges that run along the segments: five points of the edge are within a quarter of its length, and of the
