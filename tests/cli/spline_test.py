@@ -77,6 +77,22 @@ class Spline(CommandTest):
         self.assertGreater(report['fit']['distance']['to_surface_max'], 0)
         self.spline('-o', 'a', '--fit', code=2)
 
+    def test_fitting_takes_the_sharp_edges_of_the_part(self):
+        def report(*arguments):
+            self.run_program('spline', 'rod.vtk', '-o', 'a', '--surface', ROD / 'rod_patches.k',
+                             '--json', 'report.json', *arguments)
+            return json.loads((self.folder / 'report.json').read_text())
+        unfitted, fitted = report(), report('--fit')
+        self.assertEqual(unfitted['sharp_edges'], 0)
+        self.assertGreater(fitted['sharp_edges'], 0)
+        self.assertEqual(report('-s', 0, '--fit')['sharp_edges'], 0)
+        for direction in ('to_surface', 'from_surface'):
+            before, after = fitted['fit']['before'], fitted['fit']['after']
+            self.assertEqual(before, unfitted['fit']['distance'])
+            self.assertLess(5 * after[direction + '_rms'], before[direction + '_rms'])
+            self.assertLess(2 * after[direction + '_max'], before[direction + '_max'])
+        self.assertEqual(fitted['jacobian']['proved_positive'], fitted['elements'])
+
     def test_what_the_part_decides_needs_the_part(self):
         part = ('--surface', ROD / 'rod_patches.k')
         plain = self.report('-o', 'a')

@@ -102,27 +102,20 @@ Part load_part(const CommandLine& line) {
     return part;
 }
 
-/// -s, and the part's sharp edges, which --fit adds to any that -s asks for.
+/// What -s asks for.
 void add_features(const CommandLine& line, const hex::HexMesh& mesh, const Part& part,
                   spline::SplineOptions& options) {
-    options.feature_cosine = line.get<double>("tolerance");
-    line.require_range("tolerance", options.feature_cosine, -1.0, 1.0);
-    const int sharp = line.given("sharp") ? line.get<int>("sharp") : line.is_set("fit") ? 4 : 0;
-    if (sharp > 0 && line.is_set("fit")) options.feature_edges = spline::edges_along(mesh, part.sharp_edges);
-    switch (sharp) {
+    switch (line.get<int>("sharp")) {
         case 0:
             break;
         case 1:
             options.features = hex::FeatureSource::angle;
             break;
-        case 3: {
-            const auto edges = part.surface ? spline::edges_between_patches(mesh, *part.surface)
-                                            : spline::edges_between_parts(mesh);
-            options.feature_edges.insert(options.feature_edges.end(), edges.begin(), edges.end());
+        case 3:
+            options.feature_edges = part.surface ? spline::edges_between_patches(mesh, *part.surface)
+                                                 : spline::edges_between_parts(mesh);
             break;
-        }
         case 4:
-            if (!part.surface) throw hex::Error(hex::ErrorKind::usage, "-s 4 needs --surface");
             options.feature_edges = spline::edges_along(mesh, part.sharp_edges);
             break;
         case 2: {
@@ -139,9 +132,25 @@ void add_features(const CommandLine& line, const hex::HexMesh& mesh, const Part&
     }
 }
 
+/// The part's sharp edges, which --fit adds to any that -s asks for; none with -s 0. True when there are any.
+bool add_features_to_fit(const CommandLine& line, const hex::HexMesh& mesh, const Part& part,
+                         spline::SplineOptions& options) {
+    const int sharp = line.given("sharp") ? line.get<int>("sharp") : -1;
+    if (!line.is_set("fit") || sharp == 0 || sharp == 4) return false;
+    const auto edges = spline::edges_along(mesh, part.sharp_edges);
+    options.feature_edges.insert(options.feature_edges.end(), edges.begin(), edges.end());
+    return !edges.empty();
+}
+
 spline::SplineOptions options_of(const CommandLine& line) {
     spline::SplineOptions options;
     options.method = line.get<std::string>("method");
+    options.feature_cosine = line.get<double>("tolerance");
+    line.require_range("tolerance", options.feature_cosine, -1.0, 1.0);
+    if (line.get<int>("sharp") == 4 && !line.given("surface"))
+        throw hex::Error(hex::ErrorKind::usage, "-s 4 needs --surface");
+    if (line.is_set("fit") && !line.given("surface"))
+        throw hex::Error(hex::ErrorKind::usage, "--fit needs --surface");
     options.global_refinements = line.get<int>("global");
     line.require_range("global", options.global_refinements, 0, 10);
     if (line.given("local")) {
@@ -271,13 +280,16 @@ Json to_json(const spline::FitDistance& distance) {
 }
 
 /// With --fit the boundary is moved onto --surface; without, it is only measured.
-Json fit_to_surface(const CommandLine& line, const Part& part, spline::SplineResult& result,
+/// `unfitted`, when given, is the distance of the spline without the features that --fit added.
+Json fit_to_surface(const CommandLine& line, const Part& part,
+                    const std::optional<spline::FitDistance>& unfitted, spline::SplineResult& result,
                     spline::JacobianReport& verdict) {
     if (!part.surface) return {};
     const hex::TriangleMesh& surface = *part.surface;
     if (!line.is_set("fit"))
         return {{"distance", to_json(spline::fit_distance(result.spline, surface, line.context()))}};
-    const auto report = spline::fit(result.spline, verdict, surface, {}, line.context());
+    auto report = spline::fit(result.spline, verdict, surface, {}, line.context());
+    report.before = unfitted.value_or(report.before);
     spline::update_control_meshes(result);
     line.info("fitted: root mean square distance of the boundary from the surface " +
               std::to_string(report.before.to_surface_rms) + " -> " +
@@ -328,16 +340,19 @@ std::string write_deck(const CommandLine& line, const std::filesystem::path& bex
 int run(CommandLine& line) {
     const Format format = output_format(line);
     const auto path = output_path(line, format);
-    if (line.is_set("fit") && !line.given("surface"))
-        throw hex::Error(hex::ErrorKind::usage, "--fit needs --surface");
     spline::SplineOptions options = options_of(line);
     const hex::HexMesh mesh = load_hexahedra(line, line.input());
     const Part part = load_part(line);
     add_features(line, mesh, part, options);
-    // Judged as the spline would be without this refinement, fitted when --fit is given.
     if (part.surface)
         options.fit_errors = [&](const spline::BezierSpline& unrefined) {
-            if (!line.is_set("fit")) return spline::fit_errors(unrefined, *part.surface, line.context());
+            return spline::fit_errors(unrefined, *part.surface, line.context());
+        };
+    const spline::SplineOptions without_fit = options;
+    const bool more_features = add_features_to_fit(line, mesh, part, options);
+    // Judged as the spline would be without this refinement.
+    if (line.is_set("fit"))
+        options.fit_errors = [&](const spline::BezierSpline& unrefined) {
             spline::BezierSpline fitted = unrefined;
             spline::JacobianReport verdict = spline::certify(fitted, {}, line.context());
             if (!line.is_set("no-repair")) mend(line, fitted, verdict);
@@ -345,7 +360,11 @@ int run(CommandLine& line) {
             return spline::fit_errors(fitted, *part.surface, line.context());
         };
     spline::SplineResult result;
+    std::optional<spline::FitDistance> unfitted;
     try {
+        if (more_features)
+            unfitted = spline::fit_distance(spline::build(mesh, without_fit, line.context()).spline,
+                                            *part.surface, line.context());
         result = spline::build(mesh, options, line.context());
     } catch (const hex::Error& error) {
         throw error.located(line.input().string());
@@ -353,7 +372,7 @@ int run(CommandLine& line) {
     line.log(result.report.diagnostics, line.input().string());
     spline::JacobianReport verdict = spline::certify(result.spline, {}, line.context());
     const Json repair = settle_jacobians(line, result, verdict);
-    const Json fit = fit_to_surface(line, part, result, verdict);
+    const Json fit = fit_to_surface(line, part, unfitted, result, verdict);
 
     write_spline(line, path, format, result.spline);
     const std::string deck = write_deck(line, path, format, result.spline);
