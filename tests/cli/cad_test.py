@@ -27,8 +27,30 @@ def obj_of(faces, apart=False):
     return '\n'.join(lines) + '\n'
 
 
+def vtk_of_bricks(n, size):
+    """A box of n[0] x n[1] x n[2] hexahedra from the origin."""
+    m = [k + 1 for k in n]
+    points = [(i * size, j * size, k * size) for k in range(m[2]) for j in range(m[1]) for i in range(m[0])]
+    cells = [[i + x + m[0] * (j + y + m[1] * (k + z)) for x, y, z in CUBE]
+             for k in range(n[2]) for j in range(n[1]) for i in range(n[0])]
+    return '\n'.join(['# vtk DataFile Version 2.0', 'bricks', 'ASCII', 'DATASET UNSTRUCTURED_GRID',
+                      f'POINTS {len(points)} double', *(' '.join(map(str, p)) for p in points),
+                      f'CELLS {len(cells)} {9 * len(cells)}', *('8 ' + ' '.join(map(str, c)) for c in cells),
+                      f'CELL_TYPES {len(cells)}', *['12'] * len(cells)]) + '\n'
+
+
 @unittest.skipUnless(READS_CAD, 'built without Open CASCADE')
 class Models(CommandTest):
+    def test_a_spline_takes_the_sharp_edges_of_the_model(self):
+        # The first of two plates, 30 x 20 x 10: its twelve edges, whatever -t says of triangles.
+        (self.folder / 'plate.vtk').write_text(vtk_of_bricks((6, 4, 2), 5))
+        model = DATA / 'pair' / 'pair.step'
+        self.run_program('spline', 'plate.vtk', '-s', 4, '-t', -1, '--surface', model, '-o', 'a', '--json', 'report.json')
+        report = json.loads((self.folder / 'report.json').read_text())
+        self.assertEqual(report['sharp_edges'], 4 * (6 + 4 + 2))
+        self.assertEqual(report['corner_vertices'], 8)
+        self.assertLess(report['fit']['distance']['to_surface_max'], 1e-9)
+
     def test_convert_writes_triangles_and_features(self):
         self.run_program('convert', ANGLE, '-o', 'angle.k', '--features-out', 'edges.obj', '--json', 'report.json')
         report = json.loads((self.folder / 'report.json').read_text())
