@@ -37,7 +37,18 @@ if(HEXSPLINE_COVERAGE)
     add_compile_options(--coverage -fprofile-update=atomic)
     add_link_options(--coverage)
     find_program(HEXSPLINE_GCOVR gcovr REQUIRED)
+    set(counted "${PROJECT_BINARY_DIR}/coverage.json")
+    set(report ${HEXSPLINE_GCOVR} --root "${PROJECT_SOURCE_DIR}" --add-tracefile "${counted}" --sort-percentage)
+    # Every library is shown before one that has too little fails the target.
+    foreach(library libhex libspline)
+        list(APPEND shown COMMAND ${CMAKE_COMMAND} -E echo "== ${library}"
+                          COMMAND ${report} --filter "${PROJECT_SOURCE_DIR}/${library}/" --print-summary)
+        list(APPEND demanded COMMAND ${CMAKE_COMMAND} -E echo "== ${library}: at least 90 % of the lines"
+                             COMMAND ${report} --filter "${PROJECT_SOURCE_DIR}/${library}/" --fail-under-line 90 --print-summary
+                                     --output "${PROJECT_BINARY_DIR}/${library}.txt")
+    endforeach()
     add_custom_target(coverage COMMAND ${HEXSPLINE_GCOVR} --root "${PROJECT_SOURCE_DIR}" --filter "${PROJECT_SOURCE_DIR}/lib(hex|spline)/"
-                                       --exclude-throw-branches --print-summary --sort-percentage
-                                       --html "${PROJECT_BINARY_DIR}/coverage.html" "${PROJECT_BINARY_DIR}" VERBATIM)
+                                       --exclude-throw-branches --json "${counted}" "${PROJECT_BINARY_DIR}"
+                               COMMAND ${report} --html "${PROJECT_BINARY_DIR}/coverage.html"
+                               ${shown} ${demanded} VERBATIM)
 endif()

@@ -1,3 +1,4 @@
+#include "support/damage.h"
 #include "support/test_files.h"
 
 #include <hex/base/error.h>
@@ -10,6 +11,7 @@
 #include <limits>
 #include <map>
 #include <numbers>
+#include <random>
 #include <set>
 
 namespace hex::io {
@@ -149,6 +151,22 @@ TEST_F(Cad, DamagedFilesAreErrorsOrWhatIsLeft) {
     attempt("pair/pair.igs", noisy);
     attempt("pair/pair.brep", cut_off);
     attempt("pair/pair.brep", noisy);
+}
+
+/// 200 of each format: CPU time and memory of the process that reads are counted in, as it is our child.
+TEST_F(Cad, DamagedAnywhereItIsReadOrRefusedInLittleTimeAndMemory) {
+    const test::TemporaryFolder folder;
+    for (const char* name : {"pair.step", "pair.igs", "pair.brep"}) {
+        const std::filesystem::path whole = test::own_data() / "pair" / name;
+        const std::string text = test::read_text(whole);
+        std::mt19937 random(7);
+        for (int round = 0; round < 200; ++round) {
+            const auto path = folder / std::string("d").append(whole.extension().string());
+            test::write_text(path, test::damaged(text, random, 1 + round % 4));
+            SCOPED_TRACE(std::string(name) + ", round " + std::to_string(round));
+            test::expect_read_or_refused(path, [](const std::filesystem::path& file) { read_cad(file); });
+        }
+    }
 }
 
 TEST(CadErrors, TruncatedStepSaysSo) {
