@@ -63,6 +63,13 @@ class Robustness(CommandTest):
             done = subprocess.run([PROGRAM, 'plugins', '--json', '-'], stdout=full, stderr=subprocess.PIPE, text=True)
         self.assertEqual(done.returncode, 5, done.stderr)
 
+    @unittest.skipUnless(os.path.isdir('/proc/self'), 'no file system in which not even root may write')
+    def test_a_file_system_that_is_read_only(self):
+        for command in (['convert', ROD / 'rod_tri.k', '-o', '/proc/out.off'], ['segment', ROD / 'rod_tri.k', '-o', '/proc/out.k'],
+                        ['check', ROD / 'rod_blocks.k', '--min-scaled-jacobian', '-1', '--vtu', '/proc/out.vtu'],
+                        ['run', ROD / 'rod_tri.k', '-o', '/proc/out']):
+            self.assertIn('/proc/out', self.one_line(*command, code=5))
+
     @unittest.skipIf(os.geteuid() == 0, 'root may write everywhere')
     def test_a_folder_that_is_read_only(self):
         (self.folder / 'locked').mkdir()
