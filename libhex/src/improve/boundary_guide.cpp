@@ -192,7 +192,7 @@ BoundaryGuide::BoundaryGuide(const HexMesh& mesh, const EdgeTable& edges, const 
                                         mesh.position(quad[2]) + mesh.position(quad[3]));
             const Vec3 area = (mesh.position(quad[2]) - mesh.position(quad[0]))
                                   .cross(mesh.position(quad[3]) - mesh.position(quad[1]));
-            const std::uint32_t t = whole.closest(centre, 0).item;
+            const std::uint32_t t = whole.closest(centre).item;
             vote[q] = region_of[t];
             facing[q] = parts_->surface.normals[t].dot(area) > 0.0;
         },
@@ -223,7 +223,8 @@ BoundaryGuide::BoundaryGuide(const HexMesh& mesh, const EdgeTable& edges, const 
 
 BoundaryGuide::~BoundaryGuide() = default;
 
-BoundaryGuide::Place BoundaryGuide::nearest(VertexId v, const Vec3& p, std::uint32_t hint) const {
+BoundaryGuide::Place BoundaryGuide::nearest(VertexId v, const Vec3& p,
+                                            std::optional<std::uint32_t> hint) const {
     const std::uint32_t part = part_[v.index()];
     switch (freedom_[v.index()]) {
         case Freedom::region: {
@@ -248,7 +249,8 @@ BoundaryGuide::Place BoundaryGuide::nearest(VertexId v, const Vec3& p, std::uint
     return {p, Vec3::Zero(), 0};
 }
 
-BoundaryGuide::Place BoundaryGuide::nearest_smooth(VertexId v, const Vec3& p, std::uint32_t hint) const {
+BoundaryGuide::Place BoundaryGuide::nearest_smooth(VertexId v, const Vec3& p,
+                                                   std::optional<std::uint32_t> hint) const {
     if (freedom_[v.index()] != Freedom::curve) return nearest(v, p, hint);
     const std::uint32_t part = part_[v.index()];
     const auto found = parts_->fine_search[part]->closest(p, hint);

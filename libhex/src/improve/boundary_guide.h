@@ -6,6 +6,7 @@
 #include "improve/surface_curves.h"
 
 #include <memory>
+#include <optional>
 
 namespace hex::improving {
 
@@ -44,14 +45,14 @@ class BoundaryGuide {
         std::uint32_t item;  ///< triangle or segment of the part: where the next search may start
     };
 
-    /// Closest point on the part of a boundary vertex. \param hint `item` of an earlier answer for it, or 0.
-    Place nearest(VertexId v, const Vec3& p, std::uint32_t hint) const;
+    /// Closest point on the part of a boundary vertex. \param hint `item` of an earlier answer for it.
+    Place nearest(VertexId v, const Vec3& p, std::optional<std::uint32_t> hint = {}) const;
     /// The same, but curves are finer polylines through smooth stand-ins of the surface's: three vertices on
     /// one segment, where a corner of an element has no volume, are a trap for a minimiser. A point of a
     /// segment is moved halfway to its mean projection onto the tangents at the segment's ends, as in Phong
     /// tessellation (Boubekeur and Alexa 2008; the factor 1/2 is the one that reproduces circles). Hints are
     /// not those of `nearest`.
-    Place nearest_smooth(VertexId v, const Vec3& p, std::uint32_t hint) const;
+    Place nearest_smooth(VertexId v, const Vec3& p, std::optional<std::uint32_t> hint = {}) const;
     /// The two ends of the segment of a curve that `item` of `nearest` numbers: where the curve has its
     /// kinks.
     std::array<Vec3, 2> segment(VertexId v, std::uint32_t item) const;

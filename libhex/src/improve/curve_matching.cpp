@@ -111,7 +111,7 @@ class Matcher {
                 if (!edges_.boundary[e.index()] || !near[w.index()]) continue;
                 const Vec3 middle = 0.5 * (mesh_.position(v) + mesh_.position(w));
                 const double length = (mesh_.position(v) - mesh_.position(w)).norm();
-                if ((search.closest(middle, 0).point - middle).norm() > 2.0 * on_curve * length) continue;
+                if ((search.closest(middle).point - middle).norm() > 2.0 * on_curve * length) continue;
                 ++count;
                 if (w != previous) found = w;
             }
@@ -139,7 +139,7 @@ class Matcher {
 
   private:
     bool lies_on(VertexId v, const SegmentSearch& search) const {
-        return (search.closest(mesh_.position(v), 0).point - mesh_.position(v)).norm() <=
+        return (search.closest(mesh_.position(v)).point - mesh_.position(v)).norm() <=
                on_curve * edge_length(v);
     }
     VertexId end_vertex(std::uint32_t surface_vertex) const { return ends_.at(surface_vertex); }
@@ -172,7 +172,7 @@ class Matcher {
         for (const auto& [point, squared] : found) {
             const VertexId v(static_cast<std::size_t>(point.second));
             if (taken_[v.index()]) continue;
-            const double to_curve = (search.closest(mesh_.position(v), 0).point - mesh_.position(v)).norm();
+            const double to_curve = (search.closest(mesh_.position(v)).point - mesh_.position(v)).norm();
             if (to_curve > farthest * edge_length(v)) continue;
             const double distance = 10.0 * to_curve + std::sqrt(squared);
             if (best.valid() && distance >= best_distance) continue;
@@ -206,7 +206,7 @@ class Matcher {
                 if (taken_[w.index()] && w != to) continue;
                 const double size = edge_length(w);
                 // Not where the middle of the edge is: on a bent curve it has to be off.
-                const double off = (search.closest(mesh_.position(w), 0).point - mesh_.position(w)).norm();
+                const double off = (search.closest(mesh_.position(w)).point - mesh_.position(w)).norm();
                 if (off > farthest * size) continue;
                 const double share = off / size;
                 const double length = (mesh_.position(v) - mesh_.position(w)).norm();

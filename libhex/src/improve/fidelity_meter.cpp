@@ -13,7 +13,7 @@ constexpr std::size_t grain = 64;
 
 template <class Search>
 double distance(const Search& search, const Vec3& p) {
-    return (search.closest(p, 0).point - p).norm();
+    return (search.closest(p).point - p).norm();
 }
 
 template <class Search>

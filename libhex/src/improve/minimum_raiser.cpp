@@ -187,12 +187,16 @@ void MinimumRaiser::record(const std::string& step, bool eligible) {
 }
 
 double MinimumRaiser::deviation() const {
+    // On smooth curves an item is not one of the curve's own.
+    const auto hint = [&](VertexId v) {
+        return guide_.freedom(v) == Freedom::region ? sliding_.item(v) : std::nullopt;
+    };
     return parallel_reduce(
         boundary_.boundary_vertices.size(), 0.0,
         [&](double largest, std::size_t i) {
             const VertexId v = boundary_.boundary_vertices[i];
             const Vec3& p = sliding_.mesh().position(v);
-            return std::max(largest, (guide_.nearest(v, p, 0).point - p).norm());
+            return std::max(largest, (guide_.nearest(v, p, hint(v)).point - p).norm());
         },
         [](double a, double b) { return std::max(a, b); });
 }

@@ -24,6 +24,8 @@ constexpr double hinge_start = 0.6;
 /// The surface is flat where the normals' cosine is above this.
 constexpr double flat_cosine = 0.9995;
 constexpr int most_steps = 20;
+/// Share of the points that may need more than one quad before all are compared anew.
+constexpr double most_compared = 0.3;
 constexpr std::size_t grain = 64;
 
 }  // namespace
@@ -67,7 +69,9 @@ ShapeKeeper::ShapeKeeper(const EdgeTable& edges, const BoundaryQuads& boundary, 
     add_surface_points(surface, 0.5 * length / static_cast<double>(count), positions);
     add_sharp_points(surface, sharp_cosine, positions);
     feet_.resize(points_.size());
-    costs_.resize(points_.size());
+    nearest_.resize(points_.size());
+    lead_.resize(points_.size());
+    quad_move_.resize(boundary.size());
     follow(positions);
 }
 
@@ -116,7 +120,7 @@ void ShapeKeeper::add_surface_points(const GuideSurface& surface, double spacing
         points_.size(),
         [&](std::size_t i) {
             const Vec3& p = places[i * stride];
-            const std::uint32_t quad = search.closest(p, 0).item / 2;
+            const std::uint32_t quad = search.closest(p).item / 2;
             points_[i] = {p, quad, 1.0, sizes[quad], false};
         },
         grain);
@@ -136,7 +140,7 @@ void ShapeKeeper::add_sharp_points(const GuideSurface& surface, double sharp_cos
     const SegmentSearch search(std::move(segments));
     const std::size_t first = points_.size();
     const auto add = [&](const Vec3& p) {
-        const auto found = search.closest(p, 0);
+        const auto found = search.closest(p);
         const std::uint32_t e = numbers[found.item];
         double size = 0.0;
         for (const std::uint32_t near : near_edges_[e])
@@ -163,22 +167,41 @@ void ShapeKeeper::share_weights(std::size_t first, std::size_t homes, double wei
 }
 
 template <class Positions>
+ShapeKeeper::Foot ShapeKeeper::foot_on(const Point& point, std::uint32_t home, const Positions& at) const {
+    Foot found;
+    found.home = home;
+    if (point.sharp) {
+        const auto& [a, b] = edges_.vertices[home];
+        const NearestPoint nearest = nearest_on_segment(point.place, at(a), at(b));
+        found.vertices = {a, b, b};
+        found.shares = nearest.shares;
+        found.squared = nearest.squared;
+    } else {
+        const auto& [a, b, c, d] = boundary_.vertices[home];
+        const NearestPoint first = nearest_on_triangle(point.place, at(a), at(b), at(c));
+        const NearestPoint second = nearest_on_triangle(point.place, at(a), at(c), at(d));
+        const bool in_first = first.squared <= second.squared;
+        found.vertices = in_first ? std::array<VertexId, 3>{a, b, c} : std::array<VertexId, 3>{a, c, d};
+        found.shares = in_first ? first.shares : second.shares;
+        found.squared = in_first ? first.squared : second.squared;
+    }
+    found.off = point.place;
+    for (std::size_t i = 0; i < 3; ++i) found.off -= found.shares[i] * at(found.vertices[i]);
+    return found;
+}
+
+template <class Positions>
 ShapeKeeper::Foot ShapeKeeper::foot(const Point& point, const Positions& at) const {
     Foot best;
     best.squared = std::numeric_limits<double>::infinity();
-    const auto take = [&](const NearestPoint& nearest, VertexId a, VertexId b, VertexId c,
-                          std::uint32_t home) {
-        if (nearest.squared >= best.squared) return;
-        best.squared = nearest.squared;
-        best.vertices = {a, b, c};
-        best.shares = nearest.shares;
-        best.home = home;
+    double rival = std::numeric_limits<double>::infinity();
+    const auto take = [&](const Foot& candidate) {
+        const bool nearer = candidate.squared < best.squared;
+        rival = std::min(rival, nearer ? best.squared : candidate.squared);
+        if (nearer) best = candidate;
     };
     if (point.sharp) {
-        for (const std::uint32_t e : near_edges_[point.home]) {
-            const auto& ends = edges_.vertices[e];
-            take(nearest_on_segment(point.place, at(ends[0]), at(ends[1])), ends[0], ends[1], ends[1], e);
-        }
+        for (const std::uint32_t e : near_edges_[point.home]) take(foot_on(point, e, at));
     } else {
         for (const std::uint32_t q : near_quads_[point.home]) {
             const auto& v = boundary_.vertices[q];
@@ -188,15 +211,66 @@ ShapeKeeper::Foot ShapeKeeper::foot(const Point& point, const Positions& at) con
             const Vec3& d = at(v[3]);
             const Vec3 low = a.cwiseMin(b).cwiseMin(c.cwiseMin(d));
             const Vec3 high = a.cwiseMax(b).cwiseMax(c.cwiseMax(d));
-            const Vec3 outside = (low - point.place).cwiseMax(point.place - high).cwiseMax(0.0);
-            if (outside.squaredNorm() >= best.squared) continue;
-            take(nearest_on_triangle(point.place, a, b, c), v[0], v[1], v[2], q);
-            take(nearest_on_triangle(point.place, a, c, d), v[0], v[2], v[3], q);
+            const double outside =
+                (low - point.place).cwiseMax(point.place - high).cwiseMax(0.0).squaredNorm();
+            if (outside < best.squared)
+                take(foot_on(point, q, at));
+            else
+                rival = std::min(rival, outside);
         }
     }
-    best.off = point.place;
-    for (std::size_t i = 0; i < 3; ++i) best.off -= best.shares[i] * at(best.vertices[i]);
+    best.rival = rival;
     return best;
+}
+
+void ShapeKeeper::find_feet(std::span<const Vec3> positions) const {
+    const auto at = [&](VertexId v) -> const Vec3& { return positions[v.index()]; };
+    const auto compare = [&] {
+        compared_.assign(positions.begin(), positions.end());
+        parallel_for(
+            points_.size(),
+            [&](std::size_t i) {
+                feet_[i] = foot(points_[i], at);
+                nearest_[i] = feet_[i].home;
+                lead_[i] = std::sqrt(feet_[i].rival) - std::sqrt(feet_[i].squared);
+            },
+            grain);
+    };
+    if (compared_.size() != positions.size()) {
+        compare();
+        return;
+    }
+    parallel_for(
+        boundary_.size(),
+        [&](std::size_t q) {
+            double farthest = 0.0;
+            for (const VertexId v : boundary_.vertices[q])
+                farthest = std::max(farthest, (at(v) - compared_[v.index()]).squaredNorm());
+            quad_move_[q] = std::sqrt(farthest);
+        },
+        grain);
+    // Neither the nearest nor a rival has come or gone farther than its vertices.
+    const auto certain = [&](std::size_t i) {
+        double move = 0.0;
+        if (points_[i].sharp) {
+            for (const std::uint32_t e : near_edges_[points_[i].home])
+                for (const VertexId v : edges_.vertices[e])
+                    move = std::max(move, (at(v) - compared_[v.index()]).norm());
+        } else {
+            for (const std::uint32_t q : near_quads_[points_[i].home]) move = std::max(move, quad_move_[q]);
+        }
+        return 2.0 * move < lead_[i];
+    };
+    const std::size_t compared = parallel_reduce(
+        points_.size(), std::size_t{0},
+        [&](std::size_t count, std::size_t i) {
+            const bool known = certain(i);
+            feet_[i] = known ? foot_on(points_[i], nearest_[i], at) : foot(points_[i], at);
+            return count + (known ? 0 : 1);
+        },
+        [](std::size_t a, std::size_t b) { return a + b; }, grain);
+    if (static_cast<double>(compared) > most_compared * static_cast<double>(points_.size()))
+        compared_.clear();
 }
 
 std::array<double, 2> ShapeKeeper::cost(const Point& point, double squared) const {
@@ -228,6 +302,7 @@ void ShapeKeeper::follow(std::span<const Vec3> positions) {
             }
         },
         grain);
+    compared_.clear();
     points_at_ = rows_by_counting<std::uint32_t>(positions.size(), [&](const auto& emit) {
         for (std::uint32_t i = 0; i < points_.size(); ++i) {
             const std::uint32_t home = points_[i].home;
@@ -242,21 +317,14 @@ void ShapeKeeper::follow(std::span<const Vec3> positions) {
 
 double ShapeKeeper::evaluate(std::span<const Vec3> positions, std::vector<Vec3>* gradient) const {
     if (strength_ == 0.0) return 0.0;
-    const auto at = [&](VertexId v) -> const Vec3& { return positions[v.index()]; };
-    parallel_for(
-        points_.size(),
-        [&](std::size_t i) {
-            feet_[i] = foot(points_[i], at);
-            costs_[i] = cost(points_[i], feet_[i].squared);
-        },
-        grain);
+    find_feet(positions);
     double sum = 0.0;
     for (std::size_t i = 0; i < points_.size(); ++i) {
-        sum += costs_[i][0];
+        const auto [value, slope] = cost(points_[i], feet_[i].squared);
+        sum += value;
         if (gradient == nullptr) continue;
         for (std::size_t k = 0; k < 3; ++k)
-            (*gradient)[feet_[i].vertices[k].index()] -=
-                2.0 * costs_[i][1] * feet_[i].shares[k] * feet_[i].off;
+            (*gradient)[feet_[i].vertices[k].index()] -= 2.0 * slope * feet_[i].shares[k] * feet_[i].off;
     }
     return sum;
 }

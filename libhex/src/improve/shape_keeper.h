@@ -66,9 +66,17 @@ class ShapeKeeper {
         Vec3 off;  ///< from it to the surface's point
         double squared = 0.0;
         std::uint32_t home = 0;
+        /// No other quad or edge near the point is nearer than this, squared.
+        double rival = 0.0;
     };
     template <class Positions>
     Foot foot(const Point& point, const Positions& at) const;
+    /// The nearest point of one quad or edge.
+    template <class Positions>
+    Foot foot_on(const Point& point, std::uint32_t home, const Positions& at) const;
+    /// Finds the feet of all points. Where the mesh has moved so little since quads and edges were last
+    /// compared that the one which was nearest still is, only that one is looked at.
+    void find_feet(std::span<const Vec3> positions) const;
     /// Cost, and its derivative for the squared distance.
     std::array<double, 2> cost(const Point& point, double squared) const;
     std::vector<double> quad_sizes(std::span<const Vec3> positions) const;
@@ -85,7 +93,12 @@ class ShapeKeeper {
     std::vector<Point> points_;
     CompressedRows<std::uint32_t> points_at_;  // whose feet may be at a vertex
     mutable std::vector<Foot> feet_;
-    mutable std::vector<std::array<double, 2>> costs_;
+    /// The mesh when all quads and edges were last compared; empty: never since `follow`. With each point the
+    /// nearest then, and by how much it was.
+    mutable std::vector<Vec3> compared_;
+    mutable std::vector<std::uint32_t> nearest_;
+    mutable std::vector<double> lead_;
+    mutable std::vector<double> quad_move_;
 };
 
 }  // namespace hex::improving

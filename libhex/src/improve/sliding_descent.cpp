@@ -47,7 +47,7 @@ SlidingMesh::SlidingMesh(const HexMesh& mesh, const EdgeTable& edges, const Boun
                                                                    static_cast<std::uint32_t>(8 * c + k));
                                                   })),
       axis_(mesh.vertex_count(), Vec3::Zero()),
-      item_(mesh.vertex_count(), 0),
+      item_(mesh.vertex_count()),
       foot_(mesh.vertex_count(), Vec3::Zero()),
       cell_gradient_(mesh.cell_count()),
       cell_value_(mesh.cell_count()) {}
@@ -69,7 +69,8 @@ void SlidingMesh::set_positions(std::span<const Vec3> positions) {
 void SlidingMesh::use_smooth_curves(bool smooth) {
     if (smooth == smooth_) return;
     smooth_ = smooth;
-    std::fill(item_.begin(), item_.end(), 0U);
+    for (const VertexId v : boundary_.boundary_vertices)
+        if (guide_ != nullptr && guide_->freedom(v) == Freedom::curve) item_[v.index()].reset();
 }
 
 void SlidingMesh::attach() {

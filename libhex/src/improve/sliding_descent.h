@@ -71,7 +71,7 @@ class SlidingMesh {
     bool on_boundary(VertexId v) const { return boundary_.contains(v); }
     /// Unit normal of the region, direction of the curve where a boundary vertex is.
     const Vec3& axis(VertexId v) const { return axis_[v.index()]; }
-    std::uint32_t item(VertexId v) const { return item_[v.index()]; }
+    std::optional<std::uint32_t> item(VertexId v) const { return item_[v.index()]; }
     /// 8 cell + corner of each cell at a vertex.
     std::span<const std::uint32_t> corners_at(VertexId v) const { return corners_at_[v.index()]; }
     /// Mean length of the edges at each vertex, as the mesh is now.
@@ -91,7 +91,7 @@ class SlidingMesh {
     const BoundaryQuads& boundary_;
     CompressedRows<std::uint32_t> corners_at_;  // 8 cell + corner, of each vertex
     std::vector<Vec3> axis_;                    // normal or direction of each boundary vertex's place
-    std::vector<std::uint32_t> item_;
+    std::vector<std::optional<std::uint32_t>> item_;
     std::vector<Vec3> foot_;
     mutable std::vector<std::array<Vec3, 8>> cell_gradient_;
     mutable std::vector<double> cell_value_;

@@ -162,7 +162,7 @@ struct SnapTargets::State {
                 if (seen[piece[q]]++ % (1 + size[piece[q]] / most_votes) != 0) continue;
                 Vec3 middle = Vec3::Zero();
                 for (const VertexId v : boundary.vertices[q]) middle += 0.25 * mesh.position(v);
-                ++votes[piece[q]][component_of[whole.search->closest(middle, 0).item]];
+                ++votes[piece[q]][component_of[whole.search->closest(middle).item]];
             }
         }
         home.assign(mesh.vertex_count(), 0);

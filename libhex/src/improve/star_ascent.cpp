@@ -68,7 +68,7 @@ class StarAscent {
                 attempt(here - share * size * mesh_.axis(v));
             }
             if (!mesh_.smooth_curves())
-                for (const Vec3& kink : mesh_.guide()->segment(v, mesh_.item(v))) attempt(kink);
+                for (const Vec3& kink : mesh_.guide()->segment(v, mesh_.item(v).value_or(0))) attempt(kink);
         } else if (!found) {
             for (const double share : {0.1, 0.02, 0.004}) {
                 for (Eigen::Index i = 0; i < 3; ++i) {

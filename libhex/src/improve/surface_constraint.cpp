@@ -137,7 +137,7 @@ SurfaceConstraint::~SurfaceConstraint() = default;
 
 SurfaceConstraint::Home SurfaceConstraint::find_home(const Vec3& p, double reach) const {
     if (state_->curves.all && reach >= 0.0) {
-        const auto found = state_->curves.all->closest(p, 0);
+        const auto found = state_->curves.all->closest(p);
         const std::uint32_t segment = found.item;
         if ((found.point - p).norm() <= reach) {
             for (const std::int64_t corner : state_->corners_of_segment[segment]) {
@@ -148,7 +148,7 @@ SurfaceConstraint::Home SurfaceConstraint::find_home(const Vec3& p, double reach
             return {Kind::curve, place.set, place.item};
         }
     }
-    const auto& place = state_->regions.place[state_->regions.all->closest(p, 0).item];
+    const auto& place = state_->regions.place[state_->regions.all->closest(p).item];
     return {Kind::region, place.set, place.item};
 }
 

@@ -47,8 +47,8 @@ ClosestPoint::ClosestPoint(const TriangleMesh& mesh)
 
 ClosestPoint::~ClosestPoint() = default;
 
-ClosestPoint::Answer ClosestPoint::operator()(const Vec3& p, std::uint32_t hint) const {
-    const auto found = state_->search->closest(p, state_->place[hint]);
+ClosestPoint::Answer ClosestPoint::operator()(const Vec3& p, std::optional<std::uint32_t> hint) const {
+    const auto found = hint ? state_->search->closest(p, state_->place[*hint]) : state_->search->closest(p);
     return {found.point, state_->number[found.item]};
 }
 

@@ -28,8 +28,9 @@ class ItemSearch {
         Vec3 point;
         std::uint32_t item;
     };
-    /// Closest point to p; the search starts from item `hint`, and is faster when that is near the answer.
-    Answer closest(const Vec3& p, std::uint32_t hint) const;
+    /// Closest point to p. The search starts from item `hint`, and is fastest when that is near the answer;
+    /// without, a second tree, made when it is first needed, gives a good start.
+    Answer closest(const Vec3& p, std::optional<std::uint32_t> hint = {}) const;
     /// Closest point to p, if it is nearer than `radius`. Much faster than `closest` from a bad start.
     std::optional<Answer> closest_within(const Vec3& p, double radius) const;
 

@@ -29,9 +29,10 @@ class ClosestPoint {
         Vec3 point;
         std::uint32_t triangle = 0;
     };
-    /// The search starts from triangle `hint`: the nearer it is, the faster. Of several triangles that are
+    /// The search starts from triangle `hint`: fastest when that is near the answer; without, it looks for a
+    /// start. Of several triangles that are
     /// equally close the answer may depend on it.
-    Answer operator()(const Vec3& p, std::uint32_t hint = 0) const;
+    Answer operator()(const Vec3& p, std::optional<std::uint32_t> hint = {}) const;
 
     const std::array<Vec3, 3>& triangle(std::uint32_t number) const;
 
