@@ -116,6 +116,7 @@ CompressedRows<StarCell> vertex_stars(const HexMesh& mesh) {
 void Star::gather(const HexMesh& mesh, std::span<const StarCell> cells) {
     cells_ = cells;
     fixed_known_ = false;
+    allowed_place_.reset();
     block_count_ = (cells.size() + lane_count - 1) / lane_count;
     if (blocks_.size() < block_count_) blocks_.resize(block_count_);
     for (std::size_t b = 0; b < block_count_; ++b) {
@@ -179,9 +180,13 @@ void Star::compute_fixed() const {
 
 bool Star::allows(const Vec3& here, const Vec3& there, double minimum) const {
     const Vector<Lanes> point = broadcast(there);
+    allowed_place_.reset();
+    allowed_.resize(std::max(allowed_.size(), block_count_));
     for (std::size_t b = 0; b < block_count_; ++b) {
-        if (!(moving(blocks_[b], point) >= minimum + rounding).all()) return false;
+        allowed_[b] = moving(blocks_[b], point);
+        if (!(allowed_[b] >= minimum + rounding).all()) return false;
     }
+    allowed_place_ = there;
     return minimum > rounding || quality(there).inverted <= quality(here).inverted;
 }
 
@@ -199,9 +204,10 @@ StarQuality Star::quality(const Vec3& p) const {
 
 void Star::store(const Vec3& p, std::span<double> values) const {
     compute_fixed();
+    const bool known = allowed_place_ && *allowed_place_ == p;
     const Vector<Lanes> point = broadcast(p);
     for (std::size_t b = 0; b < block_count_; ++b) {
-        const Lanes smallest = moving(blocks_[b], point).min(fixed_[b]);
+        const Lanes smallest = (known ? allowed_[b] : moving(blocks_[b], point)).min(fixed_[b]);
         for (int lane = 0; lane < blocks_[b].count; ++lane)
             values[cells_[b * lane_count + static_cast<std::size_t>(lane)].cell] = smallest[lane];
     }

@@ -8,6 +8,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -79,7 +80,7 @@ class Star {
     /// all.
     Vec3 steepest_ascent(double range, const std::function<Vec3(const Vec3&)>& allowed);
 
-    /// Volume-weighted mean of the cells' centres (REFERENCE: paper, smoothing of interior vertices); the
+    /// Volume-weighted mean of the cells' centres (paper, smoothing of interior vertices); the
     /// volumes are those of the trilinear maps. The plain mean where the volumes cancel out.
     Vec3 volume_centre(const Vec3& p) const;
 
@@ -100,6 +101,8 @@ class Star {
     std::size_t block_count_ = 0;
     mutable std::vector<Lanes> fixed_;
     mutable bool fixed_known_ = false;
+    mutable std::vector<Lanes> allowed_;  ///< what `moving` gave where `allows` last said yes
+    mutable std::optional<Vec3> allowed_place_;
     std::vector<Term> terms_;
     double lowest_term_ = 1.0;
     std::vector<Vec3> gradients_;
