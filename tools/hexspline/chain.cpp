@@ -292,10 +292,7 @@ void Chain::improve() {
     const bool may_layer = is_searching() && !line_.given("improve");
     const hex::HexMesh mapped = may_layer ? *mapped_ : hex::HexMesh();
     layer_first_ = false;
-    Candidate made = improve_and_consider();
-    if (may_layer && wants_more()) {
-        if (const auto layered = improve_with_layer(mapped)) made = *layered;
-    }
+    const Candidate made = may_layer ? improve_with_and_without_layer(mapped) : improve_and_consider();
     if (is_searching()) {
         if (size_is_chosen()) refine_while_wanted(made);
         if (wants_more()) throw RouteClosed{"at best " + choice_.best()->description()};

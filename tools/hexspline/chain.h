@@ -46,11 +46,12 @@ class Chain {
         hex::MapResult result;
         double target = 0.0;  ///< hexahedra asked for; 0: the size is the user's
         double apart = 0.0;   ///< from the surface, in percent of the diagonal
+        double folded = 0.0;  ///< share of the hexahedra that are inverted
     };
 
-    /// A mapped mesh and what it was made from.
+    /// Blocks and what they were made from.
     struct Postponed {
-        Mapped mapped;
+        double nearest = 0.0;  ///< that a mesh of these blocks is to the surface
         hex::TriangleMesh surface;
         std::optional<hex::Segmentation> segmentation;
         std::optional<hex::TriangleMesh> patches;
@@ -69,11 +70,11 @@ class Chain {
     bool may_take_other_labels() const;
     /// Labels it otherwise than before. Returns false when there is nothing else to try.
     bool take_other_labels();
-    /// Keeps a mapped mesh that does not follow the surface, for when no other labels give one that does;
-    /// of several the nearest.
-    void postpone(const Mapped& mapped);
-    /// Goes back to what was postponed. Returns false when there is nothing, when the best mesh is
-    /// acceptable, or when it is too expensive.
+    /// Keeps blocks whose meshes do not follow the surface, for when no other labels give ones that do; of
+    /// several those that come nearest.
+    void postpone(double nearest);
+    /// Goes back to the blocks that were postponed. Returns false when there are none, when the best mesh is
+    /// acceptable, or when no more may be spent.
     bool take_postponed();
     void take_voxel_route();
     void write_labels() const;
@@ -100,9 +101,9 @@ class Chain {
     bool take_finer_mesh(bool nearer);
     /// Improves finer meshes of the same blocks while they may give what is wished for.
     void refine_while_wanted(const Candidate& coarse);
-    /// The same mesh with a layer of hexahedra around it before it is improved, if that may be tried. Finer
-    /// meshes get one, too, when this one is better with it.
-    std::optional<Candidate> improve_with_layer(const hex::HexMesh& mapped);
+    /// Improves the mesh as it is, or with a layer of hexahedra around it when much of it is folded; and the
+    /// other way, too, if that lacks something. Finer meshes are made as the better of the two.
+    Candidate improve_with_and_without_layer(const hex::HexMesh& mapped);
     void take_mapped(Mapped mapped);
     /// Tells of the mapped mesh and writes it.
     void report_mapped();
@@ -143,6 +144,7 @@ class Chain {
     MeshChoice choice_;
     std::optional<Postponed> postponed_;
     bool newest_is_best_ = false;
+    double mapped_folded_ = 0.0;
     bool layer_first_ = false;  ///< a layer is put around mapped meshes before they are improved
     std::optional<hex::HexMesh> improved_;
     Json report_;

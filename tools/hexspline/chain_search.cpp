@@ -22,6 +22,9 @@ constexpr double last_target = 8000;
 /// What follows means: no farther apart than this share of the wished distance, for improvement brings the
 /// boundary nearer.
 constexpr double before_improvement = 1.25;
+/// But where more than this share is folded, untangling takes what room there is: such a mesh must follow the
+/// surface as it is, and gets a layer before anything else.
+constexpr double much_folded = 0.05;
 /// Where none does, the coarsest mesh that is no farther apart than this share of the nearest.
 constexpr double nearly_as_near = 1.15;
 /// Blocks that even the finest mesh does not bring nearer than this are given up: twice the wished distance.
@@ -39,7 +42,7 @@ constexpr int last_attempt = 3;
 std::size_t Chain::go_on_after(const std::string& reason) {
     line_.info("these labels: " + reason);
     if (take_other_labels()) return segment_stage;
-    if (take_postponed()) return map_stage;
+    if (take_postponed()) return polycube_stage;
     const auto wish = line_.get<std::string>("route");
     const auto& best = choice_.best();
     if (best && best->valid() && (best->acceptable() || !size_is_chosen() || wish == "labelling")) {
@@ -72,9 +75,9 @@ bool Chain::take_other_labels() {
     return false;
 }
 
-void Chain::postpone(const Mapped& mapped) {
-    if (postponed_ && postponed_->mapped.apart <= mapped.apart) return;
-    postponed_ = Postponed{mapped, surface(), segmentation_, patches_, blocks(), report_};
+void Chain::postpone(double nearest) {
+    if (postponed_ && postponed_->nearest <= nearest) return;
+    postponed_ = Postponed{nearest, surface(), segmentation_, patches_, blocks(), report_};
 }
 
 bool Chain::take_postponed() {
@@ -82,7 +85,7 @@ bool Chain::take_postponed() {
     Postponed taken = std::move(*postponed_);
     postponed_.reset();
     const auto& best = choice_.best();
-    if ((best && best->acceptable()) || !choice_.may_improve(taken.mapped.result.mesh.cell_count()))
+    if ((best && best->acceptable()) || !choice_.may_improve(static_cast<std::size_t>(first_target)))
         return false;
     surface_ = std::move(taken.surface);
     segmentation_ = std::move(taken.segmentation);
@@ -92,8 +95,6 @@ bool Chain::take_postponed() {
     if (!tried_labels_.empty()) write_labels();
     write_polycube(hex::polycube(*patches_, {}, line_.context()).polycube);
     hex::io::write_hex_mesh(folder_ / "2-blocks.k", *blocks_);
-    take_mapped(std::move(taken.mapped));
-    report_mapped();
     return true;
 }
 
@@ -134,34 +135,43 @@ Chain::Mapped Chain::mapped_to(double target) {
         throw RouteClosed{error.what()};
     }
     mapped.apart = percent_apart(mapped.result.mesh);
+    const hex::QualitySummary quality = hex::summarize(mapped.result.mesh, line_.context());
+    mapped.folded = static_cast<double>(quality.inverted) / static_cast<double>(quality.cells);
     line_.info(std::to_string(mapped.result.mesh.cell_count()) + " hexahedra are within " +
                std::to_string(mapped.apart) + " % of the diagonal of the surface");
     return mapped;
 }
 
 Chain::Mapped Chain::as_fine_as_needed() {
-    std::vector<Mapped> meshes;
-    double nearest = std::numeric_limits<double>::infinity();
-    for (double target = first_target; target <= last_target; target *= target_growth) {
-        meshes.push_back(mapped_to(target));
-        if (meshes.back().apart <= before_improvement * wished_distance) return std::move(meshes.back());
-        nearest = std::min(nearest, meshes.back().apart);
+    const auto follows = [](const Mapped& mapped) {
+        return mapped.apart <= (mapped.folded > much_folded ? 1.0 : before_improvement) * wished_distance;
+    };
+    std::vector<double> targets;
+    for (double target = first_target; target <= last_target; target *= target_growth)
+        targets.push_back(target);
+    Mapped coarsest = mapped_to(targets.front());
+    if (follows(coarsest)) return coarsest;
+    // What the finest does not reach, those between will not.
+    Mapped finest = mapped_to(targets.back());
+    const double nearest = std::min(coarsest.apart, finest.apart);
+    if (is_searching() && !follows(finest)) {
+        const std::string reason = "no mesh of these blocks follows the surface; the nearest is " +
+                                   std::to_string(nearest) + " % of the diagonal off";
+        const bool hopeless = nearest > hopeless_distance;
+        if (hopeless)
+            for (const Mapped* mapped : {&coarsest, &finest})
+                choice_.count_mapped_in_vain(mapped->result.mesh.cell_count());
+        // Improvement is what takes time; labels whose blocks follow the surface come first.
+        if (!hopeless && may_take_other_labels()) postpone(nearest);
+        if (hopeless || may_take_other_labels()) throw RouteClosed{reason};
     }
-    if (nearest > hopeless_distance && is_searching()) {
-        for (const Mapped& mapped : meshes) choice_.count_mapped_in_vain(mapped.result.mesh.cell_count());
-        throw RouteClosed{"the mapped mesh stays " + std::to_string(nearest) +
-                          " % of the diagonal off the surface"};
+    const double near = follows(finest) ? 0.0 : nearly_as_near * nearest;
+    if (coarsest.apart <= near) return coarsest;
+    for (std::size_t i = 1; i + 1 < targets.size(); ++i) {
+        Mapped mapped = mapped_to(targets[i]);
+        if (follows(mapped) || mapped.apart <= near) return mapped;
     }
-    Mapped& chosen = *std::find_if(meshes.begin(), meshes.end(), [&](const Mapped& mapped) {
-        return mapped.apart <= nearly_as_near * nearest;
-    });
-    // Improvement is what takes time; labels whose blocks follow the surface come first.
-    if (is_searching() && may_take_other_labels()) {
-        postpone(chosen);
-        throw RouteClosed{"no mesh of these blocks follows the surface; the nearest is " +
-                          std::to_string(nearest) + " % of the diagonal off"};
-    }
-    return std::move(chosen);
+    return finest;
 }
 
 bool Chain::take_finer_mesh(bool nearer) {
@@ -192,14 +202,18 @@ void Chain::refine_while_wanted(const Candidate& coarse) {
 // Blocks have edges on smooth parts of the surface: no motion of vertices makes good corners there, where the
 // surface leaves an angle of nearly 180 degrees, but with a layer each element has one face outside.
 
-std::optional<Candidate> Chain::improve_with_layer(const hex::HexMesh& mapped) {
-    if (!choice_.may_improve(mapped.cell_count())) return {};
-    line_.info("the improved mesh is not good enough; once more with a layer around it");
+Candidate Chain::improve_with_and_without_layer(const hex::HexMesh& mapped) {
+    layer_first_ = mapped_folded_ > much_folded;
+    Candidate first = improve_and_consider();
+    if (!wants_more() || !choice_.may_improve(mapped.cell_count())) return first;
+    layer_first_ = !layer_first_;
+    line_.info(std::string("the improved mesh is not good enough; once more ") +
+               (layer_first_ ? "with" : "without") + " a layer around it");
     mapped_ = mapped;
-    layer_first_ = true;
-    Candidate layered = improve_and_consider();
-    layer_first_ = newest_is_best_;
-    return layer_first_ ? std::optional(std::move(layered)) : std::nullopt;
+    Candidate second = improve_and_consider();
+    if (newest_is_best_) return second;
+    layer_first_ = !layer_first_;
+    return first;
 }
 
 void Chain::take_mapped(Mapped mapped) {
@@ -207,6 +221,7 @@ void Chain::take_mapped(Mapped mapped) {
     mapped_ = std::move(mapped.result.mesh);
     mapped_target_ = mapped.target;
     mapped_apart_ = mapped.apart;
+    mapped_folded_ = mapped.folded;
 }
 
 Candidate Chain::improve_and_consider() {

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <set>
@@ -207,23 +208,34 @@ class Slider {
 
     /// Vertices of the triangles that are not on their rim, ascending.
     std::vector<int> inner_vertices(const std::vector<int>& triangles) const {
-        std::map<std::array<int, 2>, int> uses;
-        std::set<int> vertices;
+        std::vector<std::array<int, 2>> edges;
+        std::vector<int> vertices;
         for (const int t : triangles) {
             const auto& c = model_.triangles[at(t)];
             for (std::size_t k = 0; k < 3; ++k) {
                 const auto [a, b] = std::minmax(c[k], c[(k + 1) % 3]);
-                ++uses[{a, b}];
-                vertices.insert(a);
-                vertices.insert(b);
+                edges.push_back({a, b});
+                vertices.push_back(c[k]);
             }
         }
-        for (const auto& [edge, count] : uses) {
-            if (count == 2) continue;
-            vertices.erase(edge[0]);
-            vertices.erase(edge[1]);
+        std::sort(edges.begin(), edges.end());
+        std::vector<int> rim;
+        for (std::size_t i = 0; i < edges.size();) {
+            std::size_t end = i;
+            while (end < edges.size() && edges[end] == edges[i]) ++end;
+            if (end - i != 2) rim.insert(rim.end(), edges[i].begin(), edges[i].end());
+            i = end;
         }
-        return {vertices.begin(), vertices.end()};
+        const auto sort_once = [](std::vector<int>& numbers) {
+            std::sort(numbers.begin(), numbers.end());
+            numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+        };
+        sort_once(vertices);
+        sort_once(rim);
+        std::vector<int> inner;
+        std::set_difference(vertices.begin(), vertices.end(), rim.begin(), rim.end(),
+                            std::back_inserter(inner));
+        return inner;
     }
 
     bool recut(VertexId v, int centre, const std::vector<int>& triangles) {

@@ -39,13 +39,13 @@ std::vector<CutMesh::Face> CutMesh::faces_of_region() const {
 
 std::vector<CutMesh::Loop> CutMesh::rim_loops() const {
     std::vector<Loop> loops;
-    std::set<int> seen;
+    std::vector<char> seen(mesh_.n_halfedges(), 0);
     for (const auto h : mesh_.halfedges()) {
-        if (!in_region(mesh_.face_handle(h)) || !on_rim(h) || seen.contains(h.idx())) continue;
+        if (!in_region(mesh_.face_handle(h)) || !on_rim(h) || seen[index(h)]) continue;
         auto& loop = loops.emplace_back();
         Halfedge walk = h;
         do {
-            seen.insert(walk.idx());
+            seen[index(walk)] = 1;
             loop.push_back(walk);
             walk = mesh_.next_halfedge_handle(walk);
             while (!on_rim(walk)) walk = mesh_.next_halfedge_handle(mesh_.opposite_halfedge_handle(walk));
@@ -74,18 +74,22 @@ void CutMesh::split_bridges() {
 }
 
 bool CutMesh::is_simply_connected() const {
-    std::set<int> vertices;
-    std::set<int> edges;
-    int faces = 0;
+    std::vector<char> vertex(mesh_.n_vertices(), 0);
+    std::vector<char> edge(mesh_.n_edges(), 0);
+    int characteristic = 0;
+    const auto count = [&](char& seen, int sign) {
+        if (!seen) characteristic += sign;
+        seen = 1;
+    };
     for (const auto f : mesh_.faces()) {
         if (!in_region(f)) continue;
-        ++faces;
+        ++characteristic;
         for (const auto h : mesh_.fh_range(f)) {
-            vertices.insert(mesh_.to_vertex_handle(h).idx());
-            edges.insert(mesh_.edge_handle(h).idx());
+            count(vertex[index(mesh_.to_vertex_handle(h))], 1);
+            count(edge[index(mesh_.edge_handle(h))], -1);
         }
     }
-    return static_cast<int>(vertices.size()) - static_cast<int>(edges.size()) + faces == 1;
+    return characteristic == 1;
 }
 
 void CutMesh::round_rim(const Loop& rim) {
