@@ -1,12 +1,10 @@
 #include "improve/boundary_motion.h"
 
-#include <hex/base/parallel.h>
-
 namespace hex::improving {
 namespace {
 
 /// A quad seen from one of its corners: area as half the sum of the cross products at that corner and at the
-/// opposite one (REFERENCE: paper, smoothing), unit normal at the corner, centre.
+/// opposite one (paper, smoothing), unit normal at the corner, centre.
 struct QuadAtCorner {
     double area = 0.0;
     Vec3 normal = Vec3::Zero();
@@ -30,34 +28,17 @@ QuadAtCorner quad_at(const HexMesh& mesh, const std::array<VertexId, 4>& quad, V
 }  // namespace
 
 BoundaryMotion::BoundaryMotion(const HexMesh& mesh, const EdgeTable& edges, const BoundaryQuads& boundary,
-                               const FeatureSet& features, const SurfaceConstraint* surface)
-    : mesh_(mesh), edges_(edges), boundary_(boundary), features_(features), surface_(surface) {
-    if (surface_ == nullptr) return;
-    home_.resize(mesh.vertex_count());
-    parallel_for(
-        boundary.boundary_vertices.size(),
-        [&](std::size_t i) {
-            const VertexId v = boundary.boundary_vertices[i];
-            double shortest = std::numeric_limits<double>::infinity();
-            for (const EdgeId e : edges_.vertex_edges[v.index()]) {
-                if (!edges_.boundary[e.index()]) continue;
-                shortest =
-                    std::min(shortest, (mesh_.position(edges_.other(e, v)) - mesh_.position(v)).norm());
-            }
-            // A vertex that the mesh calls sharp looks farther for the sharp curve that it stands for; any
-            // other belongs to a curve only if it lies on it to the precision of a text file.
-            const bool sharp = features_.vertex[v.index()] != VertexFeature::smooth;
-            const double reach =
-                sharp ? 0.25 * shortest : std::min(0.25 * shortest, 1e-5 * surface_->diagonal());
-            home_[v.index()] = surface_->find_home(mesh_.position(v), reach);
-        },
-        16);
-}
+                               const FeatureSet& features, const BoundaryGuide* guide)
+    : mesh_(mesh),
+      edges_(edges),
+      boundary_(boundary),
+      features_(features),
+      guide_(guide),
+      item_(guide == nullptr ? 0 : mesh.vertex_count()) {}
 
 bool BoundaryMotion::is_fixed(VertexId v) const {
     if (features_.vertex[v.index()] == VertexFeature::corner) return true;
-    return surface_ != nullptr && boundary_.contains(v) &&
-           home_[v.index()].kind == SurfaceConstraint::Kind::corner;
+    return guide_ != nullptr && guide_->freedom(v) == Freedom::corner;
 }
 
 Vec3 BoundaryMotion::area_normal(VertexId v) const {
@@ -121,11 +102,10 @@ Vec3 BoundaryMotion::tangential(VertexId v, const Vec3& displacement) const {
 }
 
 Vec3 BoundaryMotion::constrained(VertexId v, const Vec3& p) {
-    return surface_ == nullptr ? p : surface_->project(p, home_[v.index()]);
-}
-
-void BoundaryMotion::release_to_region(VertexId v) {
-    home_[v.index()] = surface_->find_home(mesh_.position(v), -1.0);
+    if (guide_ == nullptr) return p;
+    const BoundaryGuide::Place place = guide_->nearest(v, p, item_[v.index()]);
+    item_[v.index()] = place.item;
+    return place.point;
 }
 
 }  // namespace hex::improving

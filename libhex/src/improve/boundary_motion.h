@@ -3,7 +3,7 @@
 /// given surface, when there is one.
 #pragma once
 
-#include "improve/surface_constraint.h"
+#include "improve/boundary_guide.h"
 
 #include <hex/feature/feature_set.h>
 
@@ -11,14 +11,14 @@ namespace hex::improving {
 
 class BoundaryMotion {
   public:
-    /// \param surface may be null. Keeps references to everything given.
+    /// \param guide to the surface; may be null. Keeps references to everything given.
     BoundaryMotion(const HexMesh& mesh, const EdgeTable& edges, const BoundaryQuads& boundary,
-                   const FeatureSet& features, const SurfaceConstraint* surface);
+                   const FeatureSet& features, const BoundaryGuide* guide);
 
     /// False for feature corners, and for vertices on a corner of the surface.
     bool is_fixed(VertexId v) const;
 
-    /// From a boundary vertex to where smoothing wants it (REFERENCE: paper, smoothing): a smooth vertex to
+    /// From a boundary vertex to where smoothing wants it (paper, smoothing): a smooth vertex to
     /// the area-weighted mean of the centres of its quads, without the part along its normal; a crease vertex
     /// to the length-weighted mean of the middles of its two sharp edges, along its tangent.
     Vec3 smoothing_displacement(VertexId v) const;
@@ -31,9 +31,6 @@ class BoundaryMotion {
     /// surface. Not for interior vertices. Call for one vertex from one thread at a time.
     Vec3 constrained(VertexId v, const Vec3& p);
 
-    /// From now on v belongs to the smooth region nearest to it, not to a sharp curve or corner.
-    void release_to_region(VertexId v);
-
   private:
     Vec3 area_normal(VertexId v) const;
     /// The other ends of the two sharp edges of a crease vertex.
@@ -43,8 +40,8 @@ class BoundaryMotion {
     const EdgeTable& edges_;
     const BoundaryQuads& boundary_;
     const FeatureSet& features_;
-    const SurfaceConstraint* surface_;
-    std::vector<SurfaceConstraint::Home> home_;  // one a mesh vertex, when there is a surface
+    const BoundaryGuide* guide_;
+    std::vector<std::optional<std::uint32_t>> item_;  // where each vertex's last place was on its part
 };
 
 }  // namespace hex::improving

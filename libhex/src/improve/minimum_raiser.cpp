@@ -1,5 +1,6 @@
 #include "improve/minimum_raiser.h"
 
+#include "improve/guide_options.h"
 #include "improve/star_ascent.h"
 #include "improve/sweep.h"
 
@@ -72,17 +73,6 @@ constexpr double share_of_finish = 0.9;
 constexpr double share_of_mean = 1.0;
 constexpr double share_of_ascent = 0.1;
 
-CurveOptions curve_options(const ImproveOptions& options) {
-    CurveOptions curves;
-    curves.sharp_cosine = options.feature_cosine;
-    if (options.feature_edges.empty()) return curves;
-    // What somebody listed is no accident.
-    curves.sharp_cosine = 0.0;
-    curves.fewest_edges = 1;
-    curves.shortest_open = 0.0;
-    return curves;
-}
-
 double smallest_determinant(const HexMesh& mesh, const std::vector<Vec3>& boxes) {
     return parallel_reduce(
         boxes.size(), std::numeric_limits<double>::infinity(),
@@ -97,29 +87,6 @@ double smallest_determinant(const HexMesh& mesh, const std::vector<Vec3>& boxes)
 
 bool better(const ImproveRecord& a, const ImproveRecord& b) {
     return a.inverted != b.inverted ? a.inverted < b.inverted : a.min > b.min;
-}
-
-GuideSurface make_guide_surface(const HexMesh& mesh, const BoundaryQuads& boundary,
-                                const ImproveOptions& options) {
-    if (!options.feature_edges.empty()) {
-        GuideSurface surface = options.surface != nullptr ? make_guide_surface(*options.surface)
-                                                          : make_guide_surface(mesh, boundary);
-        set_sharp_edges(surface, options.feature_edges);
-        return surface;
-    }
-    if (options.surface != nullptr) return make_guide_surface(*options.surface);
-    std::vector<char> listed;
-    if (options.features == FeatureSource::list) {
-        listed.assign(mesh.vertex_count(), 0);
-        for (const std::int64_t v : options.feature_vertices) {
-            if (v < 0 || v >= static_cast<std::int64_t>(mesh.vertex_count()))
-                throw Error(ErrorKind::bad_input, "sharp vertex " + std::to_string(v) + " does not exist", {},
-                            "the mesh has " + std::to_string(mesh.vertex_count()) +
-                                " vertices, counted from 0; give the ids of this mesh");
-            listed[static_cast<std::size_t>(v)] = 1;
-        }
-    }
-    return make_guide_surface(mesh, boundary, listed);
 }
 
 MinimumRaiser::MinimumRaiser(const HexMesh& mesh, GuideSurface surface, const ImproveOptions& options,

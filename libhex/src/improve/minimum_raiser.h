@@ -14,10 +14,6 @@
 
 namespace hex::improving {
 
-/// The surface that the options ask for, and how sharp its curves must be.
-GuideSurface make_guide_surface(const HexMesh& mesh, const BoundaryQuads& boundary,
-                                const ImproveOptions& options);
-
 /// Time that is up after so many seconds (0: never), or when somebody asks to finish; shared by what runs one
 /// after the other.
 class Deadline {

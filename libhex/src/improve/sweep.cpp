@@ -1,5 +1,7 @@
 #include "improve/sweep.h"
 
+#include "improve/guide_options.h"
+
 #include <hex/base/parallel.h>
 
 #include <tbb/enumerable_thread_specific.h>
@@ -60,13 +62,15 @@ Sweeper::Sweeper(const HexMesh& mesh, const ImproveOptions& options, const Trian
       stars_(vertex_stars(mesh_)),
       values_(scaled_jacobians(mesh_, context)) {
     report_.sharp_edges = features_.sharp_edge_count();
-    if (surface != nullptr) surface_ = std::make_unique<SurfaceConstraint>(*surface, options.feature_cosine);
-    motion_.emplace(mesh_, edges_, boundary_, features_, surface_.get());
+    if (surface != nullptr)
+        guide_ = std::make_unique<BoundaryGuide>(
+            mesh_, edges_, boundary_, make_guide_surface(mesh_, boundary_, options), curve_options(options));
+    motion_.emplace(mesh_, edges_, boundary_, features_, guide_.get());
 }
 
 Sweeper::Sweeper(const HexMesh& mesh, const ImproveOptions& options, const Context& context)
     : Sweeper(mesh, options, options.surface, context) {
-    if (surface_) {
+    if (guide_) {
         classes_ = independent_classes(mesh_, boundary_.on_boundary);
         attach_to_surface();
     }
@@ -132,22 +136,15 @@ void Sweeper::run(int count, const std::string& step, const Visit& visit,
     }
 }
 
-/// Boundary vertices that are off the surface go to their place on it, unless that inverts an element. One
-/// that cannot go to its sharp curve or corner tries the nearest smooth region: the mesh may call an edge
-/// sharp that has no sharp curve of its own on the surface, and another's is near.
+/// Boundary vertices that are off the surface go to their place on it, unless that inverts an element.
 void Sweeper::attach_to_surface() {
-    const double nothing = on_surface * surface_->diagonal();
+    const double nothing = on_surface * guide_->diagonal();
     const auto visit = [&](VertexId v, Workspace& workspace) {
         const Vec3 here = mesh_.position(v);
-        Vec3 target = motion_->constrained(v, here);
+        const Vec3 target = motion_->constrained(v, here);
         if ((target - here).norm() <= nothing) return false;
         const Star& star = gather(v, workspace);
-        const std::size_t inverted = star.quality(here).inverted;
-        if (star.quality(target).inverted > inverted) {
-            motion_->release_to_region(v);
-            target = motion_->constrained(v, here);
-            if ((target - here).norm() <= nothing || star.quality(target).inverted > inverted) return false;
-        }
+        if (star.quality(target).inverted > star.quality(here).inverted) return false;
         move(v, target, star);
         return true;
     };
@@ -163,13 +160,13 @@ void Sweeper::report_distance() {
     double largest = 0.0;
     for (const VertexId v : boundary_.boundary_vertices) {
         const double distance = (motion_->constrained(v, mesh_.position(v)) - mesh_.position(v)).norm();
-        if (distance <= on_surface * surface_->diagonal()) continue;
+        if (distance <= on_surface * guide_->diagonal()) continue;
         off.ids.push_back(static_cast<std::int64_t>(v.index()));
         largest = std::max(largest, distance);
     }
     if (off.ids.empty()) return;
     char percent[32];
-    std::snprintf(percent, sizeof percent, "%.3g", 100.0 * largest / surface_->diagonal());
+    std::snprintf(percent, sizeof percent, "%.3g", 100.0 * largest / guide_->diagonal());
     off.message =
         std::to_string(off.ids.size()) +
         " boundary vertices could not be brought onto the surface without inverting an element; the "
@@ -179,7 +176,7 @@ void Sweeper::report_distance() {
 }
 
 ImproveResult Sweeper::finish() {
-    if (surface_) {
+    if (guide_) {
         // What the sweeps made room for.
         classes_ = independent_classes(mesh_, boundary_.on_boundary);
         attach_to_surface();

@@ -68,7 +68,7 @@ class Sweeper {
     EdgeTable edges_;
     BoundaryQuads boundary_;
     FeatureSet features_;
-    std::unique_ptr<SurfaceConstraint> surface_;
+    std::unique_ptr<BoundaryGuide> guide_;  ///< null: no surface
     std::optional<BoundaryMotion> motion_;
     CompressedRows<StarCell> stars_;
     std::vector<std::vector<VertexId>> classes_;

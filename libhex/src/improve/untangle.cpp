@@ -1,5 +1,6 @@
 /// The methods `untangle` and `auto`.
 
+#include "improve/guide_options.h"
 #include "improve/minimum_raiser.h"
 
 #include <hex/base/parallel.h>
