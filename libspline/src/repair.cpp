@@ -3,11 +3,11 @@
 #include "incidence.h"
 #include "jacobian_penalty.h"
 
+#include <hex/base/components.h>
 #include <hex/base/parallel.h>
 #include <spline/repair.h>
 
 #include <algorithm>
-#include <numeric>
 
 namespace spline {
 
@@ -20,17 +20,11 @@ struct Group {
     std::vector<std::uint32_t> bad, elements, functions;
 };
 
-std::uint32_t find_root(std::vector<std::uint32_t>& parent, std::uint32_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-}
-
 /// Control points of the bad elements, and all elements that these move; groups that share an element are
 /// one.
 std::vector<Group> find_groups(const BezierSpline& spline, const Incidence& incidence,
                                const std::vector<std::int64_t>& bad, const std::vector<char>& may_move) {
-    std::vector<std::uint32_t> parent(spline.element_count());
-    std::iota(parent.begin(), parent.end(), 0U);
+    hex::Components components(spline.element_count());
     std::vector<char> variable(spline.function_count(), 0);
     ElementFunctions functions_of;
     for (const std::int64_t e : bad) {
@@ -38,26 +32,26 @@ std::vector<Group> find_groups(const BezierSpline& spline, const Incidence& inci
             if (may_move[f] == 0) continue;
             variable[f] = 1;
             for (const std::uint32_t other : incidence[f])
-                parent[find_root(parent, other)] = find_root(parent, static_cast<std::uint32_t>(e));
+                components.join(other, static_cast<std::size_t>(e));
         }
     }
     std::vector<std::int32_t> group_of_root(spline.element_count(), -1);
     std::vector<Group> groups;
     for (const std::int64_t e : bad) {
-        const std::uint32_t root = find_root(parent, static_cast<std::uint32_t>(e));
+        const std::uint32_t root = components.root(static_cast<std::size_t>(e));
         if (group_of_root[root] < 0) {
             group_of_root[root] = static_cast<std::int32_t>(groups.size());
             groups.emplace_back();
         }
         groups[static_cast<std::size_t>(group_of_root[root])].bad.push_back(static_cast<std::uint32_t>(e));
     }
-    for (std::uint32_t e = 0; e < parent.size(); ++e) {
-        const std::int32_t g = group_of_root[find_root(parent, e)];
+    for (std::uint32_t e = 0; e < components.size(); ++e) {
+        const std::int32_t g = group_of_root[components.root(e)];
         if (g >= 0) groups[static_cast<std::size_t>(g)].elements.push_back(e);
     }
     for (std::uint32_t f = 0; f < variable.size(); ++f) {
         if (variable[f] == 0) continue;
-        const std::int32_t g = group_of_root[find_root(parent, incidence[f].front())];
+        const std::int32_t g = group_of_root[components.root(incidence[f].front())];
         groups[static_cast<std::size_t>(g)].functions.push_back(f);
     }
     return groups;

@@ -107,6 +107,8 @@ class Broken(CommandTest):
         for command in (['segment', '-o', 'out.k'], ['run', '-o', 'chain']):
             done = self.run_program(*command, '-i', 'open.off', '--repair', code=3)
             self.assertRegex(done.stderr, 'open: 16 boundary edges')
+            # Advice that would not help is not given.
+            self.assertNotIn('--repair', self.run_program(*command, '-i', 'open.off', code=3).stderr)
 
     def test_an_edge_of_four_faces_and_faces_that_are_turned(self):
         points, faces = grid_box(2)
@@ -120,6 +122,8 @@ class Broken(CommandTest):
         (self.folder / 'turned.off').write_text(off(points, [faces[0][::-1]] + faces[1:]))
         self.rejected_everywhere('turned.off', r'not oriented alike along 4 edges, the first between vertices \d+')
         self.assertEqual(self.repaired('turned.off'), {'repair-orientation': '1 polygons turned'})
+        self.assertIn('give --repair, which mends this surface',
+                      self.run_program('segment', 'turned.off', '-o', 'out.k', code=3).stderr)
         self.assert_closed()
 
     def test_published_surfaces(self):

@@ -64,6 +64,20 @@ Json repair_input(const CommandLine& line, const std::filesystem::path& path, he
     }
 }
 
+/// An error of a surface, with what --repair would make of it.
+hex::Error advised(const CommandLine& line, const hex::Error& error, hex::PolygonSoup soup) {
+    if (line.is_set("repair")) return error;
+    try {
+        hex::repair(soup);
+        (void)hex::make_triangle_mesh(soup);
+    } catch (const hex::Error&) {
+        return error;
+    }
+    const std::string own = error.advice().empty() ? std::string() : error.advice() + ", or ";
+    return hex::Error(error.kind(), error.problem(), error.where(),
+                      own + "give --repair, which mends this surface");
+}
+
 SurfaceInput load_surface_input(const CommandLine& line, const std::filesystem::path& path) {
     hex::io::SurfaceFile file = read_surface_input(line, path);
     line.log(file.diagnostics);
@@ -73,7 +87,7 @@ SurfaceInput load_surface_input(const CommandLine& line, const std::filesystem::
         input.mesh = hex::make_triangle_mesh(file.soup);
         line.log(hex::inspect(input.mesh), path.string());
     } catch (const hex::Error& error) {
-        throw error.located(path.string());
+        throw advised(line, error, file.soup).located(path.string());
     }
     return input;
 }

@@ -1,8 +1,8 @@
 #include "improve/boundary_guide.h"
 
-#include "improve/components.h"
 #include "improve/curve_matching.h"
 
+#include <hex/base/components.h>
 #include <hex/base/error.h>
 #include <hex/base/parallel.h>
 
@@ -89,7 +89,7 @@ struct BoundaryGuide::Parts {
         for (std::size_t e = 0; e < surface.edges.size(); ++e) {
             const auto& sides = surface.edges[e].triangles;
             if (!cut[e] && sides[0] >= 0 && sides[1] >= 0)
-                components.join(static_cast<std::uint32_t>(sides[0]), static_cast<std::uint32_t>(sides[1]));
+                components.join(static_cast<std::size_t>(sides[0]), static_cast<std::size_t>(sides[1]));
         }
         std::uint32_t count = 0;
         std::vector<std::uint32_t> region = components.numbers(count);
@@ -177,7 +177,7 @@ BoundaryGuide::BoundaryGuide(const HexMesh& mesh, const EdgeTable& edges, const 
             if (quad_at[e.index()] == none)
                 quad_at[e.index()] = static_cast<std::uint32_t>(q);
             else
-                components.join(quad_at[e.index()], static_cast<std::uint32_t>(q));
+                components.join(quad_at[e.index()], q);
         }
     }
     std::uint32_t count = 0;

@@ -3,6 +3,7 @@
 #include "improve/surface_curves.h"
 #include "surface/search_set.h"
 
+#include <hex/base/components.h>
 #include <hex/base/error.h>
 #include <hex/base/parallel.h>
 
@@ -60,24 +61,6 @@ struct Component {
     double volume = 0.0;
 };
 
-std::uint32_t root_of(std::vector<std::uint32_t>& parent, std::uint32_t i) {
-    while (parent[i] != i) i = parent[i] = parent[parent[i]];
-    return i;
-}
-void join(std::vector<std::uint32_t>& parent, std::uint32_t a, std::uint32_t b) {
-    a = root_of(parent, a);
-    b = root_of(parent, b);
-    parent[std::max(a, b)] = std::min(a, b);
-}
-/// Components under `join`, numbered by their first members.
-std::vector<std::uint32_t> numbers_of(std::vector<std::uint32_t>& parent, std::uint32_t& count) {
-    std::vector<std::uint32_t> number(parent.size());
-    count = 0;
-    for (std::uint32_t i = 0; i < parent.size(); ++i)
-        number[i] = root_of(parent, i) == i ? count++ : number[parent[i]];
-    return number;
-}
-
 double six_volumes(const Vec3& a, const Vec3& b, const Vec3& c) {
     return a.dot(b.cross(c));
 }
@@ -106,15 +89,14 @@ struct SnapTargets::State {
 
     void make_components() {
         const auto count = static_cast<std::uint32_t>(surface.triangles.size());
-        std::vector<std::uint32_t> parent(count);
-        for (std::uint32_t t = 0; t < count; ++t) parent[t] = t;
+        Components triangles(count);
         for (const auto& edge : surface.edges) {
             if (edge.triangles[0] >= 0 && edge.triangles[1] >= 0)
-                join(parent, static_cast<std::uint32_t>(edge.triangles[0]),
-                     static_cast<std::uint32_t>(edge.triangles[1]));
+                triangles.join(static_cast<std::size_t>(edge.triangles[0]),
+                               static_cast<std::size_t>(edge.triangles[1]));
         }
         std::uint32_t number = 0;
-        component_of = numbers_of(parent, number);
+        component_of = triangles.numbers(number);
         for (std::uint32_t c = 0; c < number; ++c) components.push_back(std::make_unique<Component>());
         for (std::uint32_t t = 0; t < count; ++t) {
             Component& own = *components[component_of[t]];
@@ -135,14 +117,13 @@ struct SnapTargets::State {
     /// Which component of the surface the components of the boundary belong to, and how that is oriented.
     void find_homes(const HexMesh& mesh, const BoundaryQuads& boundary) {
         constexpr std::size_t most_votes = 1000;
-        std::vector<std::uint32_t> parent(boundary.size());
-        for (std::uint32_t q = 0; q < parent.size(); ++q) parent[q] = q;
+        Components quads_joined(boundary.size());
         for (const VertexId v : boundary.boundary_vertices) {
             const auto quads = boundary.vertex_quads[v.index()];
-            for (const QuadId q : quads) join(parent, quads.front().value(), q.value());
+            for (const QuadId q : quads) quads_joined.join(quads.front().index(), q.index());
         }
         std::uint32_t count = 0;
-        const std::vector<std::uint32_t> piece = numbers_of(parent, count);
+        const std::vector<std::uint32_t> piece = quads_joined.numbers(count);
         std::vector<double> volume(count, 0.0);
         std::vector<std::size_t> size(count, 0);
         std::vector<std::vector<std::size_t>> votes(count, std::vector<std::size_t>(components.size(), 0));

@@ -1,37 +1,17 @@
 #include "polycube/block_complex.h"
 
+#include <hex/base/components.h>
 #include <hex/base/error.h>
 #include <hex/volume/hexahedron.h>
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 #include <set>
 
 namespace hex {
 namespace {
 
 using Index = std::array<int, 3>;
-
-class UnionFind {
-  public:
-    explicit UnionFind(std::size_t count) : parent_(count) {
-        std::iota(parent_.begin(), parent_.end(), std::size_t{0});
-    }
-    std::size_t find(std::size_t i) {
-        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-        return i;
-    }
-    /// The smaller number stands for both.
-    void join(std::size_t a, std::size_t b) {
-        a = find(a);
-        b = find(b);
-        parent_[std::max(a, b)] = std::min(a, b);
-    }
-
-  private:
-    std::vector<std::size_t> parent_;
-};
 
 Index step(Index i, int axis, int by) {
     i[at(axis)] += by;
@@ -214,13 +194,13 @@ class Builder {
         return 8 * cell_index(cell) + at(4 * offset[0] + 2 * offset[1] + offset[2]);
     }
     int corner_class(const Index& cell, const Index& position) {
-        return static_cast<int>(corners_.find(
+        return static_cast<int>(corners_.root(
             corner_slot(cell, {position[0] - cell[0], position[1] - cell[1], position[2] - cell[2]})));
     }
 
     /// Cells that share a face share its four corners; cells that only touch do not.
     void join_corners() {
-        corners_ = UnionFind(8 * inside_.size());
+        corners_ = Components(8 * inside_.size());
         for_each_inside([&](const Index& cell) {
             for (int axis = 0; axis < 3; ++axis) {
                 const Index next = step(cell, axis, 1);
@@ -293,7 +273,7 @@ class Builder {
     }
 
     void join_cells() {
-        UnionFind blocks(inside_.size());
+        Components blocks(inside_.size());
         for_each_inside([&](const Index& cell) {
             for (int axis = 0; axis < 3; ++axis) {
                 const Index next = step(cell, axis, 1);
@@ -307,7 +287,7 @@ class Builder {
         };
         std::map<std::size_t, Box> boxes;
         for_each_inside([&](const Index& cell) {
-            auto [entry, fresh] = boxes.try_emplace(blocks.find(cell_index(cell)), Box{cell, cell, 0});
+            auto [entry, fresh] = boxes.try_emplace(blocks.root(cell_index(cell)), Box{cell, cell, 0});
             Box& box = entry->second;
             ++box.cells;
             for (std::size_t a = 0; a < 3; ++a) {
@@ -496,7 +476,7 @@ class Builder {
     BlockComplex result_;
     std::array<std::vector<int>, 3> chart_of_face_;
     std::vector<char> inside_;
-    UnionFind corners_{0};
+    Components corners_{0};
     struct OpenWall {
         Index cell;
         int axis;

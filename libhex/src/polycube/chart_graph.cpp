@@ -1,10 +1,11 @@
 #include "polycube/chart_graph.h"
 
+#include <hex/base/components.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <map>
-#include <numeric>
 #include <set>
 #include <string>
 
@@ -136,29 +137,19 @@ class GraphBuilder {
         }
     }
 
-    int find(int chart) {
-        auto& parent = graph_.same_plane;
-        while (parent[at(chart)] != chart) chart = parent[at(chart)] = parent[at(parent[at(chart)])];
-        return chart;
-    }
-
     void join_planes() {
-        graph_.same_plane.resize(graph_.charts.size());
-        std::iota(graph_.same_plane.begin(), graph_.same_plane.end(), 0);
+        Components planes(graph_.charts.size());
         for (const auto& [corner, charts] : charts_at_) {
             for (const int one : charts) {
                 for (const int other : charts) {
                     if (axis_of(graph_.charts[at(one)].label) != axis_of(graph_.charts[at(other)].label))
                         continue;
-                    const int a = find(one);
-                    const int b = find(other);
-                    graph_.same_plane[at(std::max(a, b))] = std::min(a, b);
+                    planes.join(at(one), at(other));
                 }
             }
         }
-        for (std::size_t c = 0; c < graph_.charts.size(); ++c) find(static_cast<int>(c));
         for (std::size_t c = 0; c < graph_.charts.size(); ++c)
-            graph_.same_plane[c] = find(static_cast<int>(c));
+            graph_.same_plane.push_back(static_cast<int>(planes.root(c)));
     }
 
     /// Quarter turns to the left along a loop, seen from outside; a turn back counts as what makes up

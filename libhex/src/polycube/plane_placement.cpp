@@ -1,12 +1,12 @@
 #include "polycube/plane_placement.h"
 
+#include <hex/base/components.h>
 #include <hex/volume/hexahedron.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numeric>
 
 namespace hex {
 namespace {
@@ -14,7 +14,7 @@ namespace {
 class PlanePlacer {
   public:
     PlanePlacer(const ChartGraph& graph, const BlockComplex& complex, double unit)
-        : graph_(graph), complex_(complex), unit_(unit) {}
+        : graph_(graph), complex_(complex), unit_(unit), planes_(3 * complex.positions.size()) {}
 
     std::vector<Vec3> place(const std::vector<double>& level) {
         join();
@@ -24,7 +24,7 @@ class PlanePlacer {
         descend();
         std::vector<Vec3> places(complex_.positions.size());
         for (std::size_t v = 0; v < places.size(); ++v)
-            for (int a = 0; a < 3; ++a) places[v][a] = value_[find(slot(static_cast<int>(v), a))];
+            for (int a = 0; a < 3; ++a) places[v][a] = value_[planes_.root(slot(static_cast<int>(v), a))];
         return places;
     }
 
@@ -42,10 +42,6 @@ class PlanePlacer {
     };
 
     static std::size_t slot(int vertex, int axis) { return 3 * at(vertex) + at(axis); }
-    std::size_t find(std::size_t i) {
-        while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-        return i;
-    }
 
     template <class Body>
     void for_each_edge(const Body& body) const {
@@ -61,28 +57,24 @@ class PlanePlacer {
     }
 
     void join() {
-        parent_.resize(3 * complex_.positions.size());
-        std::iota(parent_.begin(), parent_.end(), std::size_t{0});
         for_each_edge([&](int low, int high, int axis) {
             for (int other = 0; other < 3; ++other) {
                 if (other == axis) continue;
-                const std::size_t a = find(slot(low, other));
-                const std::size_t b = find(slot(high, other));
-                parent_[std::max(a, b)] = std::min(a, b);
+                planes_.join(slot(low, other), slot(high, other));
             }
         });
-        value_.resize(parent_.size());
+        value_.resize(planes_.size());
         for (std::size_t v = 0; v < complex_.positions.size(); ++v)
             for (std::size_t a = 0; a < 3; ++a)
                 value_[3 * v + a] = unit_ * complex_.planes[a][at(complex_.positions[v][a])];
     }
 
     void add_gaps() {
-        above_.resize(parent_.size());
-        below_.resize(parent_.size());
+        above_.resize(planes_.size());
+        below_.resize(planes_.size());
         for_each_edge([&](int low, int high, int axis) {
-            const std::size_t a = find(slot(low, axis));
-            const std::size_t b = find(slot(high, axis));
+            const std::size_t a = planes_.root(slot(low, axis));
+            const std::size_t b = planes_.root(slot(high, axis));
             above_[a].push_back(b);
             below_[b].push_back(a);
         });
@@ -95,7 +87,7 @@ class PlanePlacer {
     }
 
     void add_sides() {
-        springs_of_.resize(parent_.size());
+        springs_of_.resize(planes_.size());
         for (std::size_t s = 0; s < graph_.sides.size(); ++s) {
             const ChartSide& side = graph_.sides[s];
             const auto& nodes = complex_.side_nodes[s];
@@ -103,7 +95,7 @@ class PlanePlacer {
             int high = nodes.back().vertex;
             if (side.direction < 0) std::swap(low, high);
             const double rise = std::abs(side.rise);
-            springs_.push_back({find(slot(low, side.axis)), find(slot(high, side.axis)),
+            springs_.push_back({planes_.root(slot(low, side.axis)), planes_.root(slot(high, side.axis)),
                                 std::max(rise, 0.5 * (rise + side.length) * 0.8), 1.0});
             springs_of_[springs_.back().low].push_back(springs_.size() - 1);
             springs_of_[springs_.back().high].push_back(springs_.size() - 1);
@@ -111,11 +103,12 @@ class PlanePlacer {
     }
 
     void add_levels(const std::vector<double>& level) {
-        anchors_of_.resize(parent_.size());
+        anchors_of_.resize(planes_.size());
         for (std::size_t c = 0; c < graph_.charts.size(); ++c) {
             const SideUse& use = graph_.charts[c].loops.front().front();
             const int vertex = complex_.side_nodes[at(use.side)].front().vertex;
-            anchors_of_[find(slot(vertex, axis_of(graph_.charts[c].label)))].push_back({level[c], 0.1});
+            anchors_of_[planes_.root(slot(vertex, axis_of(graph_.charts[c].label)))].push_back(
+                {level[c], 0.1});
         }
     }
 
@@ -126,8 +119,8 @@ class PlanePlacer {
         shift();
         for (int sweep = 0; sweep < 1000; ++sweep) {
             double moved = 0.0;
-            for (std::size_t i = 0; i < parent_.size(); ++i) {
-                if (find(i) != i) continue;
+            for (std::size_t i = 0; i < planes_.size(); ++i) {
+                if (!planes_.is_root(i)) continue;
                 double sum = 0.0;
                 double weight = 0.0;
                 for (const std::size_t s : springs_of_[i]) {
@@ -160,20 +153,20 @@ class PlanePlacer {
         for (std::size_t a = 0; a < 3; ++a) {
             double sum = 0.0;
             double count = 0.0;
-            for (std::size_t i = a; i < parent_.size(); i += 3)
+            for (std::size_t i = a; i < planes_.size(); i += 3)
                 for (const Anchor& anchor : anchors_of_[i]) {
                     sum += anchor.target - value_[i];
                     count += 1.0;
                 }
             if (count == 0.0) continue;
-            for (std::size_t i = a; i < parent_.size(); i += 3) value_[i] += sum / count;
+            for (std::size_t i = a; i < planes_.size(); i += 3) value_[i] += sum / count;
         }
     }
 
     const ChartGraph& graph_;
     const BlockComplex& complex_;
     double unit_;
-    std::vector<std::size_t> parent_;
+    Components planes_;  ///< coordinates of block vertices that are one
     std::vector<double> value_;
     std::vector<std::vector<std::size_t>> above_;
     std::vector<std::vector<std::size_t>> below_;

@@ -1,10 +1,10 @@
 #include "volume/counting_rows.h"
 
+#include <hex/base/components.h>
 #include <hex/base/parallel.h>
 #include <hex/volume/topology.h>
 
 #include <algorithm>
-#include <numeric>
 
 namespace hex {
 
@@ -129,22 +129,6 @@ EdgeId EdgeTable::find(VertexId a, VertexId b) const {
 
 namespace {
 
-/// Union-find over cells, joined by `join`.
-class Components {
-  public:
-    explicit Components(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
-    std::uint32_t find(std::uint32_t x) {
-        while (parent_[x] != x) x = parent_[x] = parent_[parent_[x]];
-        return x;
-    }
-    void join(std::uint32_t a, std::uint32_t b) {
-        parent_[std::max(find(a), find(b))] = std::min(find(a), find(b));
-    }
-
-  private:
-    std::vector<std::uint32_t> parent_;
-};
-
 /// The cells of a vertex hang together through faces that contain it.
 bool star_is_connected(const HexMesh& mesh, VertexId v, std::span<const CellId> star) {
     std::vector<CellId> reached = {star[0]};
@@ -191,10 +175,10 @@ Diagnostics inspect(const HexMesh& mesh) {
     Components components(mesh.cell_count());
     for (const HalfFaceId h : mesh.half_faces()) {
         if (!mesh.is_boundary(h))
-            components.join(HexMesh::cell_of(h).value(), HexMesh::cell_of(mesh.twin(h)).value());
+            components.join(HexMesh::cell_of(h).index(), HexMesh::cell_of(mesh.twin(h)).index());
     }
     std::size_t component_count = 0;
-    for (const CellId c : mesh.cells()) component_count += components.find(c.value()) == c.value();
+    for (const CellId c : mesh.cells()) component_count += components.is_root(c.index());
 
     add(diagnostics, "unused-vertices", "vertices that no hexahedron uses", "vertex", std::move(unused));
     add(diagnostics, "non-manifold-vertices", "vertices where hexahedra only touch", "vertex",
