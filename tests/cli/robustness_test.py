@@ -117,21 +117,29 @@ class Robustness(CommandTest):
             process.wait()
             self.assertEqual((self.folder / 'out.k').read_bytes(), whole)
 
-    def test_interrupted_it_stops_within_a_second_and_leaves_nothing(self):
-        self.run_program('map', ROD / 'rod_patches.k', '-p', ROD / 'rod_blocks.k', '-s', '3', '-o', 'rod.vtk')
-        process = subprocess.Popen([PROGRAM, 'improve', 'rod.vtk', '-m', 'optimize', '-n', '1000000', '-o', 'out.vtk'],
-                                   cwd=self.folder, stderr=subprocess.PIPE, text=True)
-        time.sleep(1)
+    def interrupt(self, arguments, after):
+        """The message of a program that is interrupted after so many seconds, and how long it took to stop."""
+        process = subprocess.Popen([PROGRAM, *map(str, arguments)], cwd=self.folder, stderr=subprocess.PIPE, text=True)
+        time.sleep(after)
         process.send_signal(signal.SIGINT)
         began = time.monotonic()
         _, message = process.communicate(timeout=60)
-        taken = time.monotonic() - began
         self.assertEqual(process.returncode, 130, message)
-        # A busy machine has other things to do.
-        busy = os.getloadavg()[0] / os.cpu_count()
-        self.assertLess(taken, max(1.0, 2 * busy))
-        self.assertFalse((self.folder / 'out.vtk').exists())
-        self.assertEqual(self.left_over(), [])
+        self.assertRegex(message, r'error: (.*: )?interrupted')
+        return time.monotonic() - began
+
+    def test_interrupted_it_stops_within_a_second_and_leaves_nothing(self):
+        self.run_program('map', ROD / 'rod_patches.k', '-p', ROD / 'rod_blocks.k', '-s', '4', '-o', 'rod.vtk')
+        for after, *command in ((1, 'improve', '-m', 'optimize', '-n', '1000000'), (0.6, 'spline', '-g', '1'),
+                                (2, 'spline', '-g', '1'), (4, 'spline', '-g', '1', '--format', 'bext2')):
+            output = 'out.bext' if command[0] == 'spline' else 'out.vtu'
+            with self.subTest(command=command, after=after):
+                taken = self.interrupt([*command, '-i', 'rod.vtk', '-o', output], after)
+                # A busy machine has other things to do.
+                busy = os.getloadavg()[0] / os.cpu_count()
+                self.assertLess(taken, max(1.0, 2 * busy))
+                self.assertFalse((self.folder / output).exists())
+                self.assertEqual(self.left_over(), [])
 
     def test_interrupted_auto_writes_the_best_mesh_until_then(self):
         self.run_program('map', ROD / 'rod_patches.k', '-p', ROD / 'rod_blocks.k', '-s', '3', '-o', 'rod.vtk')

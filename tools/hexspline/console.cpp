@@ -1,6 +1,7 @@
 #include "hexspline/console.h"
 
 #include <hex/base/error.h>
+#include <hex/io/output_file.h>
 
 #include <pthread.h>
 #include <signal.h>
@@ -9,6 +10,7 @@
 #include <tbb/global_control.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <cstdio>
 #include <optional>
@@ -20,6 +22,11 @@ namespace {
 std::stop_source& interrupt() {
     static std::stop_source source;
     return source;
+}
+
+std::atomic<bool>& finishing_takes_time() {
+    static std::atomic<bool> flag = false;
+    return flag;
 }
 
 spdlog::level::level_enum spdlog_level(hex::LogLevel level) {
@@ -83,7 +90,11 @@ class ProgressBar {
 
 }  // namespace
 
-void watch_interrupts() {
+void take_time_after_interrupt() {
+    finishing_takes_time() = true;
+}
+
+void watch_interrupts(const std::string& name) {
     sigset_t signals;
     sigemptyset(&signals);
     sigaddset(&signals, SIGINT);
@@ -91,12 +102,20 @@ void watch_interrupts() {
     pthread_sigmask(SIG_BLOCK, &signals, nullptr);
     // All threads inherit the mask; this one alone takes the signals, in ordinary code instead of a signal
     // handler.
-    std::thread([signals] {
+    std::thread([signals, name] {
         int number = 0;
         sigwait(&signals, &number);
         interrupt().request_stop();
-        sigwait(&signals, &number);
-        _exit(130);
+        // Not every library looks whether it should stop.
+        if (finishing_takes_time()) {
+            sigwait(&signals, &number);
+        } else {
+            const timespec patience{0, 500'000'000};
+            sigtimedwait(&signals, nullptr, &patience);
+        }
+        hex::io::abandon_output_files();
+        std::fprintf(stderr, "hexspline%s%s: error: interrupted\n", name.empty() ? "" : " ", name.c_str());
+        _exit(hex::exit_code(hex::ErrorKind::cancelled));
     }).detach();
     signal(SIGPIPE, SIG_IGN);
 }

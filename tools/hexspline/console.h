@@ -17,9 +17,12 @@ struct ConsoleOptions {
     int threads = 0;    ///< 0 = all cores
 };
 
-/// Turns Ctrl-C into a request to stop, shown by Context::stop; a second one ends the program at once. Call
-/// once, before any thread is started.
-void watch_interrupts();
+/// Turns Ctrl-C into a request to stop, shown by Context::stop. Who does not follow it in time, or gets a
+/// second one, is ended, without unfinished files. Call once, before any thread is started. \param name put
+/// in front of the message
+void watch_interrupts(const std::string& name);
+/// From now on one Ctrl-C is a request to finish, which may take a while.
+void take_time_after_interrupt();
 
 class Console {
   public:

@@ -72,7 +72,7 @@ int dispatch(const std::vector<std::string>& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    cli::watch_interrupts();
+    cli::watch_interrupts(argc > 1 ? argv[1] : "");
     const int code = dispatch({argv + 1, argv + argc});
     std::cout.flush();
     // A result that could not be printed is a result that was not delivered.

@@ -4,6 +4,7 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -41,6 +42,8 @@ std::string read_all(int from) {
 
 /// An exception that leaves `body` must not run on in the copy of the caller: it ends the child.
 [[noreturn]] void run_child(int to, const std::function<std::string()>& body, unsigned seconds) noexcept {
+    // Nobody waits for the answer of a child without a parent.
+    prctl(PR_SET_PDEATHSIG, SIGKILL);
     for (const int number : {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGINT, SIGTERM})
         signal(number, SIG_DFL);
     const rlimit no_core{0, 0};

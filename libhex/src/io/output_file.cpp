@@ -7,8 +7,31 @@
 
 #include <cerrno>
 #include <cstring>
+#include <mutex>
+#include <set>
 
 namespace hex::io {
+namespace {
+
+/// Names of all files that are being written, for `abandon_output_files`.
+struct Unfinished {
+    std::mutex mutex;
+    std::set<std::string> names;
+};
+
+/// Never destroyed: files may be closed by what outlives other static objects.
+Unfinished& unfinished() {
+    static auto* const list = new Unfinished;
+    return *list;
+}
+
+}  // namespace
+
+void abandon_output_files() noexcept {
+    // Not unlocked: whoever comes later waits for the end.
+    unfinished().mutex.lock();
+    for (const std::string& name : unfinished().names) ::unlink(name.c_str());
+}
 
 OutputFile::OutputFile(std::filesystem::path path) : path_(std::move(path)) {
     std::error_code ignored;
@@ -28,7 +51,11 @@ OutputFile::OutputFile(std::filesystem::path path) : path_(std::move(path)) {
     // A name may have 255 bytes; of a long one only the start goes into the name beside it.
     const std::string stem = path_.filename().string().substr(0, 200);
     std::string name = (path_.parent_path() / (stem + ".part-XXXXXX")).string();
-    descriptor_ = ::mkostemp(name.data(), O_CLOEXEC);
+    {
+        const std::lock_guard lock(unfinished().mutex);
+        descriptor_ = ::mkostemp(name.data(), O_CLOEXEC);
+        if (descriptor_ >= 0) unfinished().names.insert(name);
+    }
     if (descriptor_ < 0) fail("cannot be created", errno);
     temporary_ = name;
     const mode_t mask = ::umask(0);
@@ -38,7 +65,15 @@ OutputFile::OutputFile(std::filesystem::path path) : path_(std::move(path)) {
 
 OutputFile::~OutputFile() {
     if (descriptor_ >= 0) ::close(descriptor_);
-    if (!temporary_.empty()) ::unlink(temporary_.c_str());
+    remove_temporary();
+}
+
+void OutputFile::remove_temporary() {
+    if (temporary_.empty()) return;
+    const std::lock_guard lock(unfinished().mutex);
+    ::unlink(temporary_.c_str());
+    unfinished().names.erase(temporary_.string());
+    temporary_.clear();
 }
 
 void OutputFile::write(std::string_view bytes) {
@@ -83,7 +118,15 @@ void OutputFile::commit() {
     descriptor_ = -1;
     if (closed != 0) fail("cannot be written", errno);
     if (temporary_.empty()) return;
-    if (::rename(temporary_.c_str(), path_.c_str()) != 0) fail("cannot be replaced", errno);
+    int problem = 0;
+    {
+        const std::lock_guard lock(unfinished().mutex);
+        if (::rename(temporary_.c_str(), path_.c_str()) != 0)
+            problem = errno;
+        else
+            unfinished().names.erase(temporary_.string());
+    }
+    if (problem != 0) fail("cannot be replaced", problem);
     temporary_.clear();
 }
 
@@ -92,8 +135,7 @@ void OutputFile::fail(const std::string& what, int error_number) {
     // A throwing constructor runs no destructor.
     if (descriptor_ >= 0) ::close(descriptor_);
     descriptor_ = -1;
-    if (!temporary_.empty()) ::unlink(temporary_.c_str());
-    temporary_.clear();
+    remove_temporary();
     throw Error(ErrorKind::output, what + reason, path_.string());
 }
 

@@ -5,6 +5,7 @@
 ///   hexspline improve -i part.vtk -m smooth -s 1 -t 0.8 --surface part_segment.k -o part_smooth.vtk
 
 #include "hexspline/command.h"
+#include "hexspline/console.h"
 #include "hexspline/inputs.h"
 
 #include <hex/base/error.h>
@@ -225,8 +226,10 @@ int run(CommandLine& line) {
         try {
             // Interrupted, these end with the best mesh found until then; the others with nothing.
             hex::Context context = line.context();
-            if (options.method == "untangle" || options.method == "auto")
+            if (options.method == "untangle" || options.method == "auto") {
+                take_time_after_interrupt();
                 options.finish = std::exchange(context.stop, std::stop_token());
+            }
             return hex::improve(mesh, options, context);
         } catch (const hex::Error& error) {
             // What is wrong with a valid mesh's input is the list of sharp vertices.

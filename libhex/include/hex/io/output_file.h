@@ -32,6 +32,7 @@ class OutputFile {
     static constexpr std::size_t large = std::size_t{1} << 20;
     void flush();
     void write_out(std::string_view bytes);
+    void remove_temporary();
     [[noreturn]] void fail(const std::string& what, int error_number);
 
     std::filesystem::path path_;
@@ -40,6 +41,10 @@ class OutputFile {
     int descriptor_ = -1;
     std::size_t unsynced_ = 0;  ///< bytes written since the disk was last told to begin
 };
+
+/// For a program that ends at once: removes what unfinished OutputFiles have written, and lets no other
+/// appear from now on; `commit` and the destructor do not return any more. Thread-safe.
+void abandon_output_files() noexcept;
 
 /// The whole text as a file, all or nothing.
 void write_file(const std::filesystem::path& path, std::string_view text);
