@@ -78,7 +78,10 @@ int Chain::run() {
         try {
             run_stage(stage);
         } catch (const RouteClosed& closed) {
+            // Mostly other labels.
+            const auto start = std::chrono::steady_clock::now();
             stage = go_on_after(closed.reason);
+            count_time(segment_stage, start);
         }
     }
     double total = 0;
@@ -95,20 +98,20 @@ void Chain::run_stage(std::size_t stage) {
     constexpr std::array<void (Chain::*)(), 5> stages = {&Chain::segment, &Chain::polycube, &Chain::map,
                                                          &Chain::improve, &Chain::spline};
     const auto start = std::chrono::steady_clock::now();
-    const auto count_time = [&] {
-        const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
-        const double before =
-            seconds_.contains(stage_names[stage]) ? seconds_[stage_names[stage]].get<double>() : 0.0;
-        seconds_[stage_names[stage]] = before + elapsed.count();
-    };
     line_.info(std::string(stage_names[stage]) + " ...");
     try {
         (this->*stages[stage])();
     } catch (const RouteClosed&) {
-        count_time();
+        count_time(stage, start);
         throw;
     }
-    count_time();
+    count_time(stage, start);
+}
+
+void Chain::count_time(std::size_t stage, std::chrono::steady_clock::time_point start) {
+    const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - start;
+    const char* name = stage_names[stage];
+    seconds_[name] = (seconds_.contains(name) ? seconds_[name].get<double>() : 0.0) + elapsed.count();
 }
 
 void Chain::make_folder() {

@@ -11,6 +11,7 @@
 #include <hex/surface/mesh_types.h>
 #include <hex/volume/hex_mesh.h>
 
+#include <chrono>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -60,6 +61,8 @@ class Chain {
     };
 
     void run_stage(std::size_t stage);
+    /// Adds the time since `start` to what the report says of a stage.
+    void count_time(std::size_t stage, std::chrono::steady_clock::time_point start);
     void make_folder();
     void choose_route(std::size_t first);
     /// What comes after labels that ended: other labels, the best mesh there is, or the route `voxel`.
