@@ -39,20 +39,20 @@ inline NearestPoint nearest_on_triangle(const Vec3& p, const Vec3& a, const Vec3
     const double d4 = ac.dot(bp);
     if (d3 >= 0.0 && d4 <= d3) return at(1.0, 0.0);
     const double vc = d1 * d4 - d3 * d2;
-    if (vc < 0.0 && d1 >= 0.0 && d3 <= 0.0) return at(d1 / (d1 - d3), 0.0);
+    if (vc <= 0.0 && d1 >= 0.0 && d3 <= 0.0 && d1 > d3) return at(d1 / (d1 - d3), 0.0);
     const Vec3 cp = p - c;
     const double d5 = ab.dot(cp);
     const double d6 = ac.dot(cp);
     if (d6 >= 0.0 && d5 <= d6) return at(0.0, 1.0);
     const double vb = d5 * d2 - d1 * d6;
-    if (vb < 0.0 && d2 >= 0.0 && d6 <= 0.0) return at(0.0, d2 / (d2 - d6));
+    if (vb <= 0.0 && d2 >= 0.0 && d6 <= 0.0 && d2 > d6) return at(0.0, d2 / (d2 - d6));
     const double va = d3 * d6 - d5 * d4;
-    if (va < 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0) {
+    if (va <= 0.0 && d4 - d3 >= 0.0 && d5 - d6 >= 0.0 && (d4 - d3) + (d5 - d6) > 0.0) {
         const double w = (d4 - d3) / ((d4 - d3) + (d5 - d6));
         return at(1.0 - w, w);
     }
     const double sum = va + vb + vc;
-    if (sum > 1e-6 * ab.squaredNorm() * ac.squaredNorm()) return at(vb / sum, vc / sum);
+    if (sum > 1e-12 * ab.squaredNorm() * ac.squaredNorm()) return at(vb / sum, vc / sum);
     // In a sliver rounding may decide where the point is, and one of the sides may be nearer.
     const NearestPoint on_ab = nearest_on_segment(p, a, b);
     const NearestPoint on_ac = nearest_on_segment(p, a, c);
