@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace hex {
@@ -44,6 +45,23 @@ TEST(Parallel, ASumOfDoublesHasTheSameBitsForAnyNumberOfThreads) {
     for (std::size_t i = count; i-- > 0;) reverse += term(i);
     EXPECT_NE(reverse, one) << "the terms do not tell orders apart";
     EXPECT_NEAR(reverse, one, 1e-6 * std::abs(one));
+}
+
+TEST(Parallel, AReductionJoinsHalvesInTheirOrder) {
+    const auto joined = [](std::size_t count, std::size_t grain) {
+        return with_threads(with(2), [&] {
+            return parallel_reduce(
+                count, std::string(),
+                [](std::string text, std::size_t i) { return text.append(std::to_string(i)); },
+                [](const std::string& a, const std::string& b) {
+                    return std::string("(").append(a).append(" ").append(b).append(")");
+                },
+                grain);
+        });
+    };
+    EXPECT_EQ(joined(5, 1), "((0 1) (2 (3 4)))");
+    EXPECT_EQ(joined(7, 3), "(012 (34 56))");
+    EXPECT_EQ(joined(3, 3), "012");
 }
 
 TEST(Parallel, AReductionOfNothingIsItsIdentity) {

@@ -88,16 +88,16 @@ void CvtState::initial_histograms() {
     histograms_.assign(arrays_.size(), Histogram{});
     ring_sizes_.assign(arrays_.size(), 0);
     tbb::enumerable_thread_specific<TwoRing> rings([&] { return TwoRing(arrays_); });
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, arrays_.size(), 512), [&](const auto& range) {
-        TwoRing& ring = rings.local();
-        for (std::size_t t = range.begin(); t != range.end(); ++t) {
+    parallel_for(
+        arrays_.size(),
+        [&](std::size_t t) {
             Histogram& histogram = histograms_[t];
-            ring.for_each(t, [&](std::size_t other) {
+            rings.local().for_each(t, [&](std::size_t other) {
                 ++histogram[static_cast<std::size_t>(labels_[other])];
                 ++ring_sizes_[t];
             });
-        }
-    });
+        },
+        512);
 }
 
 double CvtState::squared_distance(std::size_t triangle, int label) const {
