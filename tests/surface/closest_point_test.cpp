@@ -49,6 +49,28 @@ TEST(ClosestPoint, IsTheNearestOfAllTrianglesAndLiesOnIt) {
     }
 }
 
+TEST(ClosestPoint, OfFewTrianglesIsTheNearestWhereverItStarts) {
+    std::mt19937 random(5);
+    std::uniform_real_distribution<double> place(-2.0, 2.0);
+    for (std::size_t count = 1; count <= 40; ++count) {
+        const std::vector<Triangle> triangles = random_triangles(count, 10 + static_cast<unsigned>(count));
+        const hex::ClosestPoint search(triangles);
+        std::vector<std::unique_ptr<hex::ClosestPoint>> single;
+        for (const Triangle& t : triangles)
+            single.push_back(std::make_unique<hex::ClosestPoint>(std::span<const Triangle>(&t, 1)));
+        for (int i = 0; i < 20; ++i) {
+            const Vec3 p(place(random), place(random), place(random));
+            double nearest = std::numeric_limits<double>::infinity();
+            for (const auto& one : single) nearest = std::min(nearest, ((*one)(p).point - p).norm());
+            for (std::uint32_t hint = 0; hint < count; ++hint) {
+                const auto found = search(p, hint);
+                EXPECT_NEAR((found.point - p).norm(), nearest, 1e-12) << count << " from " << hint;
+                EXPECT_NEAR(((*single[found.triangle])(p).point - p).norm(), nearest, 1e-12);
+            }
+        }
+    }
+}
+
 TEST(ClosestPoint, OfOneTriangleIsNearerThanAnyPointOfIt) {
     for (const Triangle& t : random_triangles(100, 3)) {
         const hex::ClosestPoint search(std::span<const Triangle>(&t, 1));

@@ -1,6 +1,6 @@
 #include "surface/search_set.h"
 
-#include "surface/nearest_point.h"
+#include "surface/box_tree.h"
 
 #include <CGAL/AABB_segment_primitive.h>
 #include <CGAL/AABB_traits.h>
@@ -28,21 +28,6 @@ Kernel::Triangle_3 to_cgal(const SearchTriangle& t) {
 Kernel::Segment_3 to_cgal(const SearchSegment& s) {
     return {to_cgal(s[0]), to_cgal(s[1])};
 }
-Vec3 from_cgal(const Kernel::Point_3& p) {
-    return {p.x(), p.y(), p.z()};
-}
-
-Vec3 nearest(const Vec3& p, const Kernel::Triangle_3& t) {
-    const std::array<Vec3, 3> corners = {from_cgal(t[0]), from_cgal(t[1]), from_cgal(t[2])};
-    const NearestPoint found = nearest_on_triangle(p, corners[0], corners[1], corners[2]);
-    return found.shares[0] * corners[0] + found.shares[1] * corners[1] + found.shares[2] * corners[2];
-}
-Vec3 nearest(const Vec3& p, const Kernel::Segment_3& s) {
-    const std::array<Vec3, 2> ends = {from_cgal(s[0]), from_cgal(s[1])};
-    const NearestPoint found = nearest_on_segment(p, ends[0], ends[1]);
-    return found.shares[0] * ends[0] + found.shares[1] * ends[1];
-}
-
 /// Across each side of an item the other one with that side (the ends of a segment are its sides); the item
 /// itself where there is none, and one of them where there are several.
 template <std::size_t Corners>
@@ -81,35 +66,20 @@ std::vector<std::array<std::uint32_t, Corners>> find_neighbours(
     return neighbours;
 }
 
-/// CGAL's traits with plainer arithmetic for what a query spends its time in: without these two the search
-/// takes twice as long.
-template <class Primitive>
-struct Traits : CGAL::AABB_traits<Kernel, Primitive> {
-    struct Closest_point {
-        Kernel::Point_3 operator()(const Kernel::Point_3& p, const Primitive& item,
-                                   const Kernel::Point_3& bound) const {
-            const Vec3 query = from_cgal(p);
-            const Vec3 found = nearest(query, item.datum());
-            return (found - query).squaredNorm() <= (from_cgal(bound) - query).squaredNorm() ? to_cgal(found)
-                                                                                             : bound;
-        }
-    };
-    Closest_point closest_point_object() const { return {}; }
+/// Goes through a whole tree and lists the items from left to right.
+template <class Node, class Primitive>
+struct Listing {
+    std::vector<typename Primitive::Id>& items;
 
-    struct Compare_distance {
-        /// Whether the box is as near as the bound.
-        CGAL::Comparison_result operator()(const Kernel::Point_3& p, const CGAL::Bbox_3& box,
-                                           const Kernel::Point_3& bound) const {
-            const auto outside = [](double low, double x, double high) {
-                return std::max(std::max(low - x, x - high), 0.0);
-            };
-            const Vec3 off(outside(box.xmin(), p.x(), box.xmax()), outside(box.ymin(), p.y(), box.ymax()),
-                           outside(box.zmin(), p.z(), box.zmax()));
-            return off.squaredNorm() <= (from_cgal(bound) - from_cgal(p)).squaredNorm() ? CGAL::SMALLER
-                                                                                        : CGAL::LARGER;
-        }
-    };
-    Compare_distance compare_distance_object() const { return {}; }
+    constexpr bool go_further() const { return true; }
+    template <class Query>
+    void intersection(const Query&, const Primitive& item) {
+        items.push_back(item.id());
+    }
+    template <class Query>
+    constexpr bool do_intersect(const Query&, const Node&) const {
+        return true;
+    }
 };
 
 }  // namespace
@@ -121,15 +91,17 @@ struct ItemSearch<Corners>::Tree {
     using Primitive =
         std::conditional_t<Corners == 3, CGAL::AABB_triangle_primitive<Kernel, Iterator, CGAL::Tag_false>,
                            CGAL::AABB_segment_primitive<Kernel, Iterator, CGAL::Tag_false>>;
-    using Found = std::pair<Kernel::Point_3, Iterator>;
+    using Traits = CGAL::AABB_traits<Kernel, Primitive>;
 
     std::vector<CgalItem> items;
-    std::vector<std::array<std::uint32_t, Corners>> neighbours;
-    CGAL::AABB_tree<Traits<Primitive>> tree;
+    CGAL::AABB_tree<Traits> tree;
+    std::vector<std::uint32_t> number;                           ///< of the items in the order of the tree
+    std::vector<std::uint32_t> place;                            ///< in that order, of each item
+    std::vector<std::array<std::uint32_t, Corners>> neighbours;  ///< in that order
+    std::optional<BoxTree<Corners>> boxes;                       ///< of the same structure
 
-    Answer answer(const Found& found) const {
-        return {{found.first.x(), found.first.y(), found.first.z()},
-                static_cast<std::uint32_t>(found.second - items.begin())};
+    Answer answer(const typename BoxTree<Corners>::Best& found) const {
+        return {found.point, number[found.item]};
     }
 };
 
@@ -137,9 +109,27 @@ template <std::size_t Corners>
 ItemSearch<Corners>::ItemSearch(const std::vector<Item>& items) : tree_(std::make_unique<Tree>()) {
     tree_->items.reserve(items.size());
     for (const Item& item : items) tree_->items.push_back(to_cgal(item));
-    tree_->neighbours = find_neighbours(items);
     tree_->tree.insert(tree_->items.begin(), tree_->items.end());
     tree_->tree.build();
+    std::vector<typename Tree::Iterator> order;
+    order.reserve(items.size());
+    Listing<CGAL::AABB_node<typename Tree::Traits>, typename Tree::Primitive> listing{order};
+    tree_->tree.traversal(Kernel::Point_3(), listing);
+    tree_->place.resize(items.size());
+    std::vector<Item> ordered;
+    ordered.reserve(items.size());
+    for (const auto& item : order) {
+        const auto number = static_cast<std::uint32_t>(item - tree_->items.begin());
+        tree_->place[number] = static_cast<std::uint32_t>(ordered.size());
+        tree_->number.push_back(number);
+        ordered.push_back(items[number]);
+    }
+    tree_->neighbours.resize(items.size());
+    const auto neighbours = find_neighbours(items);
+    for (std::size_t t = 0; t < items.size(); ++t)
+        for (std::size_t i = 0; i < Corners; ++i)
+            tree_->neighbours[tree_->place[t]][i] = tree_->place[neighbours[t][i]];
+    tree_->boxes.emplace(std::move(ordered));
 }
 
 template <std::size_t Corners>
@@ -150,36 +140,50 @@ typename ItemSearch<Corners>::Answer ItemSearch<Corners>::closest(const Vec3& p,
                                                                   std::optional<std::uint32_t> hint) const {
     // From neighbour to neighbour while that leads closer; what is found bounds the search in the tree.
     constexpr int most_steps = 32;
-    std::uint32_t item =
+    constexpr std::uint32_t none = BoxTree<Corners>::none;
+    const std::vector<Item>& items = tree_->boxes->items();
+    const std::uint32_t start =
         hint ? *hint
              : static_cast<std::uint32_t>(tree_->tree.best_hint(to_cgal(p)).second - tree_->items.begin());
-    Vec3 foot = nearest(p, tree_->items[item]);
-    double least = (foot - p).squaredNorm();
+    typename BoxTree<Corners>::Best best;
+    best.item = tree_->place[start];
+    best.point = nearest_point_of(items[best.item], p);
+    best.squared = (best.point - p).squaredNorm();
+    std::uint32_t before = none;
     for (int step = 0; step < most_steps; ++step) {
-        const std::uint32_t from = item;
-        for (const std::uint32_t next : tree_->neighbours[from]) {
-            const Vec3 candidate = nearest(p, tree_->items[next]);
+        const std::uint32_t from = best.item;
+        best.farther.fill(none);
+        for (std::size_t i = 0; i < Corners; ++i) {
+            const std::uint32_t next = tree_->neighbours[from][i];
+            if (next == from) continue;
+            if (next == before) {
+                best.farther[i] = next;
+                continue;
+            }
+            const Vec3 candidate = nearest_point_of(items[next], p);
             const double squared = (candidate - p).squaredNorm();
-            if (!(squared < least)) continue;
-            least = squared;
-            foot = candidate;
-            item = next;
+            if (squared > best.squared) best.farther[i] = next;
+            if (!(squared < best.squared)) continue;
+            best.squared = squared;
+            best.point = candidate;
+            best.item = next;
         }
-        if (item == from) break;
+        if (best.item == from) break;
+        before = from;
     }
-    const auto start = std::as_const(tree_->items).begin() + static_cast<std::ptrdiff_t>(item);
-    return tree_->answer(
-        tree_->tree.closest_point_and_primitive(to_cgal(p), std::pair(to_cgal(foot), start)));
+    tree_->boxes->search(p, best);
+    return tree_->answer(best);
 }
 
 template <std::size_t Corners>
 std::optional<typename ItemSearch<Corners>::Answer> ItemSearch<Corners>::closest_within(const Vec3& p,
                                                                                         double radius) const {
-    const Kernel::Point_3 limit(p.x() + radius, p.y(), p.z());
-    const auto found = tree_->tree.closest_point_and_primitive(
-        to_cgal(p), std::pair(limit, std::as_const(tree_->items).begin()));
-    if (found.first == limit) return {};
-    return tree_->answer(found);
+    typename BoxTree<Corners>::Best best;
+    best.point = Vec3(p.x() + radius, p.y(), p.z());
+    best.squared = (best.point - p).squaredNorm();
+    tree_->boxes->search(p, best);
+    if (best.item == BoxTree<Corners>::none) return {};
+    return tree_->answer(best);
 }
 
 template class ItemSearch<3>;

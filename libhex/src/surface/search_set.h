@@ -12,7 +12,7 @@
 
 namespace hex {
 
-/// CGAL's AABB tree. Exact up to rounding; O(log n) a query for points near the items. Queries are
+/// The structure of CGAL's AABB tree. Exact up to rounding; O(log n) a query for points near the items. Queries are
 /// thread-safe.
 template <std::size_t Corners>
 class ItemSearch {

@@ -1,0 +1,73 @@
+/// \file box_tree.h
+/// A binary tree of boxes around triangles or segments, laid out for searches that start near the answer.
+#pragma once
+
+#include "surface/nearest_point.h"
+
+#include <hex/base/linear_algebra.h>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace hex {
+
+[[gnu::flatten]] inline Vec3 nearest_point_of(const std::array<Vec3, 3>& triangle, const Vec3& p) {
+    const auto& [a, b, c] = triangle;
+    const NearestPoint found = nearest_on_triangle(p, a, b, c);
+    return found.shares[0] * a + found.shares[1] * b + found.shares[2] * c;
+}
+[[gnu::flatten]] inline Vec3 nearest_point_of(const std::array<Vec3, 2>& segment, const Vec3& p) {
+    const auto& [a, b] = segment;
+    const NearestPoint found = nearest_on_segment(p, a, b);
+    return found.shares[0] * a + found.shares[1] * b;
+}
+
+/// The items in the order of the tree: of n items the first n / 2 are on the left, down to pairs; three are
+/// one and a pair. The boxes of four grandchildren, and those of the items of a leaf, stand side by side.
+template <std::size_t Corners>
+class BoxTree {
+  public:
+    using Item = std::array<Vec3, Corners>;
+    static constexpr std::uint32_t none = ~std::uint32_t{0};
+
+    /// At least one item.
+    explicit BoxTree(std::vector<Item> items);
+
+    const std::vector<Item>& items() const { return items_; }
+
+    struct Best {
+        Vec3 point;
+        double squared;                                             ///< distance to it
+        std::uint32_t item = none;                                  ///< that has the point
+        std::array<std::uint32_t, 3> farther = {none, none, none};  ///< items known to be farther
+    };
+    /// Goes from left to right through what is as near as the best point so far: of points that are equally
+    /// near the last is taken. An item is not looked at when its own box is clearly farther.
+    void search(const Vec3& p, Best& best) const;
+
+  private:
+    /// Boxes side by side.
+    struct Four {
+        std::array<std::array<double, 4>, 3> low{};
+        std::array<std::array<double, 4>, 3> high{};
+        std::array<std::uint32_t, 4> content{};  ///< of a box in the tree: node or ~leaf; in a leaf: item
+        std::uint32_t count = 0;
+    };
+    struct Box {
+        Vec3 low, high;
+    };
+    Box box_of(std::size_t first, std::size_t count) const;
+    static double squared_distance(const Box& box, const Vec3& p);
+    static void put(Four& four, const Box& box, std::uint32_t content);
+    std::uint32_t make_node(std::size_t first, std::size_t count);
+    std::uint32_t make_leaf(std::size_t first, std::size_t count);
+    void search_leaf(const Four& leaf, const Vec3& p, Best& best) const;
+
+    std::vector<Item> items_;
+    double rounding_ = 0.0;  ///< larger than any error of a computed point
+    std::vector<Four> nodes_;
+    std::vector<Four> leaves_;
+};
+
+}  // namespace hex
