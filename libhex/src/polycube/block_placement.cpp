@@ -9,13 +9,11 @@
 namespace hex {
 namespace {
 
-double corner_determinant(const HexMesh& blocks, CellId c, std::size_t k, bool scaled) {
-    const HexCell& cell = blocks.cell(c);
-    const Vec3& p = blocks.position(cell[k]);
+template <class Positions>
+double corner_determinant(const HexCell& cell, std::size_t k, bool scaled, const Positions& at) {
+    const Vec3& p = at(cell[k]);
     const auto& n = hexahedron::corner_neighbours[k];
-    const auto edge = [&](std::size_t i) {
-        return Vec3(blocks.position(cell[static_cast<std::size_t>(n[i])]) - p);
-    };
+    const auto edge = [&](std::size_t i) { return Vec3(at(cell[static_cast<std::size_t>(n[i])]) - p); };
     const Vec3 a = edge(0), b = edge(1), d = edge(2);
     const double det = a.cross(b).dot(d);
     if (!scaled) return det;
@@ -23,11 +21,9 @@ double corner_determinant(const HexMesh& blocks, CellId c, std::size_t k, bool s
     return size > 0.0 ? det / size : -1.0;
 }
 
-bool touches(const HexCell& cell, std::size_t corner, VertexId v) {
-    const auto& n = hexahedron::corner_neighbours[corner];
-    return cell[corner] == v || std::any_of(n.begin(), n.end(), [&](int neighbour) {
-               return cell[static_cast<std::size_t>(neighbour)] == v;
-           });
+double corner_determinant(const HexMesh& blocks, CellId c, std::size_t k, bool scaled) {
+    return corner_determinant(blocks.cell(c), k, scaled,
+                              [&](VertexId v) -> const Vec3& { return blocks.position(v); });
 }
 
 /// Smallest scaled determinant of the corners of cells that v does, or does not, have a part in; only whether
@@ -49,6 +45,18 @@ double worst_corner(const HexMesh& blocks, std::span<const CellId> cells, Vertex
 
 double corner_scaled_jacobian(const HexMesh& blocks, CellId c, std::size_t k) {
     return corner_determinant(blocks, c, k, true);
+}
+
+double corner_scaled_jacobian(const HexMesh& blocks, CellId c, std::size_t k, VertexId v, const Vec3& place) {
+    return corner_determinant(blocks.cell(c), k, true,
+                              [&](VertexId w) -> const Vec3& { return w == v ? place : blocks.position(w); });
+}
+
+bool touches(const HexCell& block, std::size_t k, VertexId v) {
+    const auto& n = hexahedron::corner_neighbours[k];
+    return block[k] == v || std::any_of(n.begin(), n.end(), [&](int neighbour) {
+               return block[static_cast<std::size_t>(neighbour)] == v;
+           });
 }
 
 BlockQuality block_quality(const HexMesh& blocks) {

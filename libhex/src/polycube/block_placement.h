@@ -16,6 +16,10 @@ struct BlockQuality {
 
 /// Scaled Jacobian of a block at its corner k.
 double corner_scaled_jacobian(const HexMesh& blocks, CellId c, std::size_t k);
+/// What it would be with vertex v elsewhere.
+double corner_scaled_jacobian(const HexMesh& blocks, CellId c, std::size_t k, VertexId v, const Vec3& place);
+/// Whether corner k of a block is v or one of its neighbours: whether the scaled Jacobian there depends on v.
+bool touches(const HexCell& block, std::size_t k, VertexId v);
 
 BlockQuality block_quality(const HexMesh& blocks);
 

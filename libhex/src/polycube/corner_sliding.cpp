@@ -4,6 +4,7 @@
 #include "polycube/chart_cutter.h"
 
 #include <hex/base/error.h>
+#include <hex/base/parallel.h>
 #include <hex/volume/hexahedron.h>
 #include <hex/volume/topology.h>
 
@@ -12,6 +13,7 @@
 #include <iterator>
 #include <limits>
 #include <map>
+#include <optional>
 #include <set>
 
 namespace hex {
@@ -22,6 +24,10 @@ constexpr std::size_t most_candidates = 250;
 
 /// Places that a vertex is tried at.
 constexpr std::size_t most_tries = 5;
+
+/// Vertices whose moves are looked for side by side, and how far ahead these are sought.
+constexpr std::size_t side_by_side = 8;
+constexpr std::size_t look_ahead = 64;
 
 /// A patch with more than this times the area that its four sides span bulges. Harmonic coordinates shrink
 /// all that is far up a finger to a point, and no mesh follows it there.
@@ -40,24 +46,38 @@ class Slider {
         : model_(model),
           target_(target),
           quads_(boundary_quads(model.blocks)),
-          cells_(vertex_cells(model.blocks)) {
+          cells_(vertex_cells(model.blocks)),
+          marked_(model.blocks.cell_count(), 0) {
         int patches = 0;
         for (const int p : model.patch) patches = std::max(patches, p + 1);
         triangles_of_.resize(at(patches));
         for (std::size_t t = 0; t < model.triangles.size(); ++t)
             triangles_of_[at(model.patch[t])].push_back(static_cast<int>(t));
+        vertices_of_.resize(triangles_of_.size());
+        rim_of_.resize(triangles_of_.size());
+        for (int p = 0; p < patches; ++p) list_vertices(p);
         find_sharp_vertices();
         name_quads();
         allow_bulges();
         for (const VertexId v : model.blocks.vertices()) home_.push_back(model.blocks.position(v));
     }
 
+    /// Vertex after vertex moves. Moves of vertices that have no block in common do not change each other, so
+    /// those of some vertices ahead are found at the same time.
     std::size_t sweep() {
         std::size_t moves = 0;
-        for (const VertexId v : quads_.boundary_vertices) {
-            if (penalty(v) <= 0.0) continue;
-            if (sharp_[at(model_.vertex_of_node[v.index()])] && worst_corner(v) > 0.0) continue;
-            if (slide(v)) ++moves;
+        const auto& order = quads_.boundary_vertices;
+        Known known;
+        for (std::size_t i = 0; i < order.size(); ++i) {
+            if (!wants_to_move(order[i])) continue;
+            if (!known.contains(i)) look_ahead_from(i, known);
+            const std::optional<Move> move = std::move(known.extract(i).mapped());
+            if (!move) continue;
+            make(*move);
+            ++moves;
+            mark_blocks(order[i], 1);
+            std::erase_if(known, [&](const auto& entry) { return is_marked(order[entry.first]); });
+            mark_blocks(order[i], 0);
         }
         return moves;
     }
@@ -75,6 +95,64 @@ class Slider {
     }
 
   private:
+    /// A block vertex goes to another vertex of the surface, and the triangles around it are cut anew.
+    struct Move {
+        VertexId v;
+        int centre = -1;
+        std::vector<int> triangles;  ///< cut
+        std::vector<int> global;     ///< vertices of the surface, by vertices of the cut
+        CutResult cut;
+        std::map<int, int> patch_of_part;
+    };
+
+    bool wants_to_move(VertexId v) const {
+        if (penalty(v) <= 0.0) return false;
+        return !(sharp_[at(model_.vertex_of_node[v.index()])] && worst_corner(v) > 0.0);
+    }
+
+    void mark_blocks(VertexId v, char mark) {
+        for (const CellId c : cells_[v.index()]) marked_[c.index()] = mark;
+    }
+    bool is_marked(VertexId v) const {
+        const auto cells = cells_[v.index()];
+        return std::any_of(cells.begin(), cells.end(), [&](CellId c) { return marked_[c.index()] != 0; });
+    }
+
+    /// Moves that have been looked for, by the vertex's place in the order; null: the vertex stays.
+    using Known = std::map<std::size_t, std::optional<Move>>;
+
+    /// Looks for the move of vertex i, and for those of vertices behind it that no other before them changes.
+    void look_ahead_from(std::size_t i, Known& known) {
+        const auto& order = quads_.boundary_vertices;
+        const std::size_t end = std::min(order.size(), i + look_ahead);
+        std::vector<std::size_t> together;
+        std::vector<std::vector<int>> places;
+        std::vector<VertexId> marked;
+        for (std::size_t k = i; k < end && together.size() < side_by_side; ++k) {
+            if (!wants_to_move(order[k])) continue;
+            const auto found = known.find(k);
+            if (found == known.end() && !is_marked(order[k])) {
+                places.push_back(better_places(order[k]));
+                if (places.back().empty()) {
+                    places.pop_back();
+                    known.emplace(k, std::nullopt);
+                    continue;
+                }
+                together.push_back(k);
+            } else if (found != known.end() && !found->second) {
+                continue;
+            }
+            mark_blocks(order[k], 1);
+            marked.push_back(order[k]);
+        }
+        for (const VertexId v : marked) mark_blocks(v, 0);
+        std::vector<std::optional<Move>> moves(together.size());
+        parallel_for(
+            together.size(), [&](std::size_t k) { moves[k] = find_move(order[together[k]], places[k]); }, 1);
+        for (std::size_t k = 0; k < together.size(); ++k)
+            known.insert_or_assign(together[k], std::move(moves[k]));
+    }
+
     Vec3 normal(int t) const {
         const auto& c = model_.triangles[at(t)];
         return (model_.points[at(c[1])] - model_.points[at(c[0])])
@@ -129,6 +207,43 @@ class Slider {
         return sum;
     }
 
+    /// What penalty(v) is when v is elsewhere.
+    class PenaltyElsewhere {
+      public:
+        PenaltyElsewhere(const Slider& slider, VertexId v) : slider_(slider), v_(v) {
+            for (const CellId c : slider.cells_[v.index()]) {
+                for (std::size_t k = 0; k < 8; ++k) {
+                    const bool fixed = !touches(slider.model_.blocks.cell(c), k, v);
+                    const double lack =
+                        fixed ? slider.target_ - corner_scaled_jacobian(slider.model_.blocks, c, k) : 0.0;
+                    corners_.push_back({c, k, fixed, lack});
+                }
+            }
+        }
+        double operator()(const Vec3& place) const {
+            double sum = 0.0;
+            for (const Corner& corner : corners_) {
+                const double lack = corner.fixed ? corner.lack
+                                                 : slider_.target_ - corner_scaled_jacobian(
+                                                                         slider_.model_.blocks, corner.block,
+                                                                         corner.k, v_, place);
+                if (lack > 0.0) sum += lack * lack;
+            }
+            return sum;
+        }
+
+      private:
+        struct Corner {
+            CellId block;
+            std::size_t k;
+            bool fixed;  ///< does not depend on where v is
+            double lack;
+        };
+        const Slider& slider_;
+        VertexId v_;
+        std::vector<Corner> corners_;
+    };
+
     double worst_corner(VertexId v) const {
         double worst = 1.0;
         for (const CellId c : cells_[v.index()])
@@ -137,19 +252,26 @@ class Slider {
         return worst;
     }
 
-    bool slide(VertexId v) {
-        const int here = model_.vertex_of_node[v.index()];
+    /// The patches around a vertex; none if they cannot be cut anew.
+    std::vector<int> patches_around(VertexId v) const {
         std::vector<int> patches;
-        for (const QuadId q : quads_.vertex_quads[v.index()]) patches.push_back(patch_of_quad_[q.index()]);
-        std::vector<int> triangles;
-        for (const int p : patches) {
-            if (p < 0) return false;
-            triangles.insert(triangles.end(), triangles_of_[at(p)].begin(), triangles_of_[at(p)].end());
+        for (const QuadId q : quads_.vertex_quads[v.index()]) {
+            const int p = patch_of_quad_[q.index()];
+            if (p < 0) return {};
+            if (std::find(patches.begin(), patches.end(), p) != patches.end() &&
+                !triangles_of_[at(p)].empty())
+                return {};
+            patches.push_back(p);
         }
-        std::sort(triangles.begin(), triangles.end());
-        if (std::adjacent_find(triangles.begin(), triangles.end()) != triangles.end()) return false;
+        return patches;
+    }
 
-        const std::vector<int> candidates = inner_vertices(triangles);
+    /// Where a vertex would be better for the blocks, the best place first.
+    std::vector<int> better_places(VertexId v) const {
+        const int here = model_.vertex_of_node[v.index()];
+        const std::vector<int> patches = patches_around(v);
+        if (patches.empty()) return {};
+        const std::vector<int> candidates = inner_vertices(patches);
         const double before = penalty(v);
         double reach = 0.0;
         for (const QuadId q : quads_.vertex_quads[v.index()]) {
@@ -160,33 +282,47 @@ class Slider {
         reach /= static_cast<double>(patches.size());
         const double acceptable = before * 0.98 - 1e-4;
         std::vector<std::pair<double, int>> better;
-        const Vec3 position = model_.blocks.position(v);
+        const PenaltyElsewhere penalty_at(*this, v);
         const std::size_t stride = candidates.size() / most_candidates + 1;
         for (std::size_t i = 0; i < candidates.size(); i += stride) {
-            if (sharp_[at(candidates[i])] != sharp_[at(here)]) continue;
-            model_.blocks.set_position(v, model_.points[at(candidates[i])]);
-            const double p = penalty(v);
-            if (p >= acceptable || candidates[i] == here) continue;
+            if (sharp_[at(candidates[i])] != sharp_[at(here)] || candidates[i] == here) continue;
+            const double p = penalty_at(model_.points[at(candidates[i])]);
+            if (p >= acceptable) continue;
             const double way = (model_.points[at(candidates[i])] - home_[v.index()]).norm() / reach;
             better.emplace_back(p + price_of_way * way * way, candidates[i]);
         }
-        model_.blocks.set_position(v, position);
         std::sort(better.begin(), better.end());
-        // Those next to the best one mostly fail as it does.
-        for (std::size_t tries = 0, i = 0; tries < most_tries && i < better.size(); ++tries, i += 1 + i) {
-            model_.blocks.set_position(v, model_.points[at(better[i].second)]);
-            if (recut(v, better[i].second, triangles)) return true;
-        }
-        model_.blocks.set_position(v, position);
-        return false;
+        std::vector<int> places;
+        for (const auto& [price, place] : better) places.push_back(place);
+        return places;
     }
 
-    /// Area of a patch by the product of the mean lengths of its opposite sides, taken straight.
-    double bulge_of(QuadId q, double area) const {
+    std::optional<Move> find_move(VertexId v, const std::vector<int>& places) const {
+        Move move;
+        move.v = v;
+        for (const int p : patches_around(v))
+            move.triangles.insert(move.triangles.end(), triangles_of_[at(p)].begin(),
+                                  triangles_of_[at(p)].end());
+        std::sort(move.triangles.begin(), move.triangles.end());
+        // Those next to the best one mostly fail as it does.
+        for (std::size_t tries = 0, i = 0; tries < most_tries && i < places.size(); ++tries, i += 1 + i) {
+            move.centre = places[i];
+            if (recut(move)) return move;
+        }
+        return {};
+    }
+
+    /// Area of a patch by the product of the mean lengths of its opposite sides, taken straight; after a
+    /// move.
+    double bulge_of(QuadId q, double area, const Move* move = nullptr) const {
         const auto& quad = quads_.vertices[q.index()];
+        const auto place = [&](std::size_t k) -> const Vec3& {
+            const VertexId v = quad[k % 4];
+            return move != nullptr && move->v == v ? model_.points[at(move->centre)]
+                                                   : model_.blocks.position(v);
+        };
         std::array<double, 4> length{};
-        for (std::size_t k = 0; k < 4; ++k)
-            length[k] = (model_.blocks.position(quad[k]) - model_.blocks.position(quad[(k + 1) % 4])).norm();
+        for (std::size_t k = 0; k < 4; ++k) length[k] = (place(k) - place(k + 1)).norm();
         const double spanned = 0.25 * (length[0] + length[2]) * (length[1] + length[3]);
         return spanned > 0.0 ? area / spanned : std::numeric_limits<double>::infinity();
     }
@@ -206,11 +342,29 @@ class Slider {
         }
     }
 
-    /// Vertices of the triangles that are not on their rim, ascending.
-    std::vector<int> inner_vertices(const std::vector<int>& triangles) const {
+    static void sort_once(std::vector<int>& numbers) {
+        std::sort(numbers.begin(), numbers.end());
+        numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+    }
+
+    /// Runs of equal edges: all(edge, how often).
+    template <class Use>
+    static void for_each_edge(std::vector<std::array<int, 2>>& edges, const Use& use) {
+        std::sort(edges.begin(), edges.end());
+        for (std::size_t i = 0; i < edges.size();) {
+            std::size_t end = i;
+            while (end < edges.size() && edges[end] == edges[i]) ++end;
+            use(edges[i], end - i);
+            i = end;
+        }
+    }
+
+    /// The vertices of a patch, and its edges without those between two of its triangles.
+    void list_vertices(int patch) {
         std::vector<std::array<int, 2>> edges;
-        std::vector<int> vertices;
-        for (const int t : triangles) {
+        std::vector<int>& vertices = vertices_of_[at(patch)];
+        vertices.clear();
+        for (const int t : triangles_of_[at(patch)]) {
             const auto& c = model_.triangles[at(t)];
             for (std::size_t k = 0; k < 3; ++k) {
                 const auto [a, b] = std::minmax(c[k], c[(k + 1) % 3]);
@@ -218,19 +372,29 @@ class Slider {
                 vertices.push_back(c[k]);
             }
         }
-        std::sort(edges.begin(), edges.end());
-        std::vector<int> rim;
-        for (std::size_t i = 0; i < edges.size();) {
-            std::size_t end = i;
-            while (end < edges.size() && edges[end] == edges[i]) ++end;
-            if (end - i != 2) rim.insert(rim.end(), edges[i].begin(), edges[i].end());
-            i = end;
-        }
-        const auto sort_once = [](std::vector<int>& numbers) {
-            std::sort(numbers.begin(), numbers.end());
-            numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-        };
         sort_once(vertices);
+        auto& rim = rim_of_[at(patch)];
+        rim.clear();
+        for_each_edge(edges, [&](const std::array<int, 2>& edge, std::size_t count) {
+            if (count != 2) rim.insert(rim.end(), count, edge);
+        });
+    }
+
+    /// Vertices of the patches that are not on the rim of all of them together, ascending.
+    std::vector<int> inner_vertices(const std::vector<int>& patches) const {
+        std::vector<int> vertices;
+        std::vector<std::array<int, 2>> edges;
+        for (const int p : patches) {
+            std::vector<int> both;
+            std::set_union(vertices.begin(), vertices.end(), vertices_of_[at(p)].begin(),
+                           vertices_of_[at(p)].end(), std::back_inserter(both));
+            vertices.swap(both);
+            edges.insert(edges.end(), rim_of_[at(p)].begin(), rim_of_[at(p)].end());
+        }
+        std::vector<int> rim;
+        for_each_edge(edges, [&](const std::array<int, 2>& edge, std::size_t count) {
+            if (count != 2) rim.insert(rim.end(), edge.begin(), edge.end());
+        });
         sort_once(rim);
         std::vector<int> inner;
         std::set_difference(vertices.begin(), vertices.end(), rim.begin(), rim.end(),
@@ -238,20 +402,23 @@ class Slider {
         return inner;
     }
 
-    bool recut(VertexId v, int centre, const std::vector<int>& triangles) {
+    /// Cuts the triangles of a move for its centre. Returns whether that is possible.
+    bool recut(Move& move) const {
+        const VertexId v = move.v;
         CutProblem problem;
-        std::vector<int> global;
-        std::map<int, int> local;
-        for (const int t : triangles) {
+        std::vector<int>& global = move.global;
+        global.clear();
+        std::vector<int> local(model_.points.size(), -1);
+        for (const int t : move.triangles) {
             std::array<int, 3> c{};
             for (std::size_t k = 0; k < 3; ++k) {
                 const int g = model_.triangles[at(t)][k];
-                const auto [entry, fresh] = local.emplace(g, static_cast<int>(global.size()));
-                if (fresh) {
+                if (local[at(g)] < 0) {
+                    local[at(g)] = static_cast<int>(global.size());
                     global.push_back(g);
                     problem.points.push_back(model_.points[at(g)]);
                 }
-                c[k] = entry->second;
+                c[k] = local[at(g)];
             }
             problem.triangles.push_back(c);
         }
@@ -262,22 +429,24 @@ class Slider {
             const auto& quad = quads_.vertices[q.index()];
             const auto k = static_cast<std::size_t>(std::find(quad.begin(), quad.end(), v) - quad.begin());
             const auto surface = [&](std::size_t i) {
-                return local.at(model_.vertex_of_node[quad[(k + i) % 4].index()]);
+                return local[at(model_.vertex_of_node[quad[(k + i) % 4].index()])];
             };
             spokes.push_back(surface(1));
             if (!patch_at_far.emplace(surface(2), patch_of_quad_[q.index()]).second) return false;
         }
+        if (std::find(spokes.begin(), spokes.end(), -1) != spokes.end()) return false;
         for (const int s : spokes) problem.nodes.push_back({Vec2::Zero(), s});
         const int middle = static_cast<int>(problem.nodes.size());
-        problem.nodes.push_back({Vec2::Zero(), local.at(centre)});
+        problem.nodes.push_back({Vec2::Zero(), local[at(move.centre)]});
         for (int k = 0; k < middle; ++k) problem.lines.push_back({{k, middle}});
-        CutResult cut;
+        CutResult& cut = move.cut;
         try {
             cut = cut_star(problem);
         } catch (const Error&) {
             return false;
         }
-        std::map<int, int> patch_of_part;
+        std::map<int, int>& patch_of_part = move.patch_of_part;
+        patch_of_part.clear();
         for (std::size_t t = 0; t < cut.triangles.size(); ++t) {
             for (const int c : cut.triangles[t]) {
                 const auto far = patch_at_far.find(c);
@@ -294,12 +463,18 @@ class Slider {
         for (std::size_t t = 0; t < cut.triangles.size(); ++t)
             area[patch_of_part.at(cut.part[t])] += area_of(cut.points, cut.triangles[t]);
         for (const QuadId q : quads_.vertex_quads[v.index()])
-            if (bulge_of(q, area.at(patch_of_quad_[q.index()])) > allowed_bulge_[q.index()]) return false;
+            if (bulge_of(q, area.at(patch_of_quad_[q.index()]), &move) > allowed_bulge_[q.index()])
+                return false;
+        return true;
+    }
 
-        for (const int t : triangles) {
+    void make(const Move& move) {
+        const CutResult& cut = move.cut;
+        for (const int t : move.triangles) {
             triangles_of_[at(model_.patch[at(t)])].clear();
             model_.patch[at(t)] = -1;
         }
+        std::vector<int> global = move.global;
         for (std::size_t i = global.size(); i < cut.points.size(); ++i) {
             global.push_back(static_cast<int>(model_.points.size()));
             model_.points.push_back(cut.points[i]);
@@ -308,21 +483,25 @@ class Slider {
         for (std::size_t t = 0; t < cut.triangles.size(); ++t) {
             std::array<int, 3> c{};
             for (std::size_t k = 0; k < 3; ++k) c[k] = global[at(cut.triangles[t][k])];
-            const int patch = patch_of_part.at(cut.part[t]);
+            const int patch = move.patch_of_part.at(cut.part[t]);
             triangles_of_[at(patch)].push_back(static_cast<int>(model_.triangles.size()));
             model_.triangles.push_back(c);
             model_.patch.push_back(patch);
         }
-        model_.vertex_of_node[v.index()] = centre;
-        return true;
+        for (const auto& [part, patch] : move.patch_of_part) list_vertices(patch);
+        model_.vertex_of_node[move.v.index()] = move.centre;
+        model_.blocks.set_position(move.v, model_.points[at(move.centre)]);
     }
 
     PatchedBlocks& model_;
     double target_;
     BoundaryQuads quads_;
     CompressedRows<CellId> cells_;
-    std::vector<std::vector<int>> triangles_of_;  ///< of each patch
-    std::vector<char> sharp_;                     ///< vertices on sharp edges
+    std::vector<char> marked_;                    ///< blocks
+    std::vector<std::vector<int>> triangles_of_;  ///< of each patch, ascending
+    std::vector<std::vector<int>> vertices_of_;   ///< of each patch, ascending
+    std::vector<std::vector<std::array<int, 2>>> rim_of_;
+    std::vector<char> sharp_;  ///< vertices on sharp edges
     std::vector<int> patch_of_quad_;
     std::vector<double> allowed_bulge_;  ///< of each quad
     std::vector<Vec3> home_;             ///< where each block vertex was at first
