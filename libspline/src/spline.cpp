@@ -50,6 +50,7 @@ void check_inverted(const hex::HexMesh& mesh, bool force, const hex::Context& co
 void check_manifold(const hex::HexMesh& mesh, bool force, hex::Diagnostics& diagnostics) {
     std::vector<std::int64_t> touching;
     std::string places;
+    std::string edge_list;
     for (const hex::Diagnostic& finding : hex::inspect(mesh)) {
         const bool vertices = finding.code == "non-manifold-vertices";
         if (!vertices && finding.code != "non-manifold-edges") continue;
@@ -58,15 +59,17 @@ void check_manifold(const hex::HexMesh& mesh, bool force, hex::Diagnostics& diag
         for (const std::int64_t id : finding.ids) {
             for (const hex::CellId c : cells[static_cast<std::size_t>(id)]) touching.push_back(c.value());
             if (vertices) continue;
+            // Enough to find them; the elements are all named.
+            constexpr std::size_t longest = 80;
+            if (edge_list.size() >= longest) continue;
             const auto& [a, b] = edges.vertices[static_cast<std::size_t>(id)];
-            places.append(places.empty() ? "" : ", ").append(std::to_string(a.value())).append("-");
-            places.append(std::to_string(b.value()));
-            if (places.size() < 80) continue;
-            places.append(", ...");
-            break;
+            edge_list.append(edge_list.empty() ? "" : ", ").append(std::to_string(a.value())).append("-");
+            edge_list.append(std::to_string(b.value()));
+            if (edge_list.size() >= longest) edge_list.append(", ...");
         }
-        places = (vertices ? "at vertices " + hex::list_ids(finding.ids) : "along edges " + places);
+        if (vertices) places = "at vertices " + hex::list_ids(finding.ids);
     }
+    if (!edge_list.empty()) places = "along edges " + edge_list;
     if (touching.empty()) return;
     std::sort(touching.begin(), touching.end());
     touching.erase(std::unique(touching.begin(), touching.end()), touching.end());

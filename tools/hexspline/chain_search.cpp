@@ -201,7 +201,6 @@ void Chain::refine_while_wanted(const Candidate& coarse) {
 
 // Blocks have edges on smooth parts of the surface: no motion of vertices makes good corners there, where the
 // surface leaves an angle of nearly 180 degrees, but with a layer each element has one face outside.
-
 Candidate Chain::improve_with_and_without_layer(const hex::HexMesh& mapped) {
     layer_first_ = mapped_folded_ > much_folded;
     Candidate first = improve_and_consider();

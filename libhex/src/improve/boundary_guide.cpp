@@ -8,7 +8,6 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 
 namespace hex::improving {
 namespace {
@@ -157,10 +156,9 @@ BoundaryGuide::BoundaryGuide(const HexMesh& mesh, const EdgeTable& edges, const 
         }
     }
 
-    std::vector<std::uint32_t> all(parts_->surface.triangles.size());
-    std::iota(all.begin(), all.end(), 0U);
     std::vector<SearchTriangle> triangles;
-    for (const std::uint32_t t : all) triangles.push_back(parts_->triangle(t));
+    for (std::uint32_t t = 0; t < parts_->surface.triangles.size(); ++t)
+        triangles.push_back(parts_->triangle(t));
     const TriangleSearch whole(std::move(triangles));
     const std::vector<std::uint32_t> region_of = parts_->make_regions(cut);
 
