@@ -6,6 +6,7 @@
 #include <hex/map/map.h>
 #include <hex/polycube/blocks.h>
 #include <hex/polycube/polycube.h>
+#include <hex/quality/hex_metrics.h>
 #include <hex/quality/scaled_jacobian.h>
 #include <hex/quality/surface_distance.h>
 #include <hex/volume/topology.h>
@@ -175,6 +176,81 @@ TEST(Blocks, OfTwoComponentsAreTheBlocksOfBoth) {
     const BlocksResult result = blocks_of(bent(surface_of(cells, 2)));
     EXPECT_TRUE(result.report.violations.empty());
     EXPECT_EQ(result.blocks.cell_count(), 4U);
+}
+
+/// A ball whose parts are the labels of its normals, which face its middle when it is inside out.
+PolygonSoup labelled_ball(int n, bool inside_out) {
+    PolygonSoup ball = test::ball(n);
+    for (int& part : ball.parts)
+        if (inside_out) part = ((part - 1) ^ 1) + 1;
+    return ball;
+}
+
+/// The blocks are not inverted and their patches enclose what they fill, with so many bounding surfaces.
+void expect_blocks_of_patches(const BlocksResult& result, const PolygonSoup& soup, int surfaces) {
+    ASSERT_TRUE(result.report.violations.empty()) << result.report.violations.front().message;
+    EXPECT_EQ(result.report.inverted_corners, 0U);
+    for (std::size_t v = 0; v < soup.points.size(); ++v)
+        EXPECT_EQ(to_eigen(result.patches.point(TriangleMesh::VertexHandle(static_cast<int>(v)))),
+                  soup.points[v]);
+    const BoundaryQuads quads = boundary_quads(result.blocks);
+    EXPECT_EQ(quads.boundary_vertices.size() - quads.size(), 2U * static_cast<std::size_t>(surfaces));
+    const MapResult mapped = map(result.patches, result.blocks, {.level = 2});
+    EXPECT_EQ(mapped.report.largest_snap, 0.0);
+    double filled = 0.0;
+    for (const CellId c : mapped.mesh.cells())
+        filled += evaluate(HexMetric::volume, mapped.mesh.corner_positions(c));
+    EXPECT_NEAR(filled, enclosed_volume(result.patches), 0.1 * filled);
+}
+
+TEST(Blocks, OfBodiesThatMeetAreThoseOfEach) {
+    PolygonSoup soup = test::ball(6);
+    test::append(soup, test::ball(6), 1.0, Vec3(0.9, 0, 0));
+    const BlocksResult result = blocks_of(soup);
+    expect_blocks_of_patches(result, soup, 2);
+    EXPECT_EQ(result.report.bodies, 2U);
+    EXPECT_EQ(result.report.turned_shells, 0U);
+    EXPECT_EQ(result.blocks.cell_count(), 2U);
+}
+
+TEST(Blocks, OfNestedShellsNeedNoOrientation) {
+    for (const bool void_inwards : {true, false}) {
+        for (const bool all_inside_out : {false, true}) {
+            PolygonSoup soup;
+            const auto add = [&](double scale, bool inside_out) {
+                test::append(soup, labelled_ball(6, inside_out), scale, Vec3::Zero(), inside_out);
+            };
+            add(0.75, void_inwards != all_inside_out);
+            add(0.5, all_inside_out);
+            add(1.0, all_inside_out);
+            const BlocksResult result = blocks_of(soup);
+            expect_blocks_of_patches(result, soup, 3);
+            EXPECT_EQ(result.report.bodies, 2U);
+            EXPECT_EQ(result.report.turned_shells,
+                      (all_inside_out ? 2U : 0U) + (void_inwards == all_inside_out ? 1U : 0U));
+        }
+    }
+}
+
+TEST(Blocks, OfASurfaceInsideOutAreThoseOfTheBodyInIt) {
+    PolygonSoup soup;
+    test::append(soup, labelled_ball(6, true), 1.0, Vec3::Zero(), true);
+    const BlocksResult result = blocks_of(soup);
+    expect_blocks_of_patches(result, soup, 1);
+    EXPECT_EQ(result.report.turned_shells, 1U);
+}
+
+TEST(Blocks, NameTheChartsOfTheWholeSurface) {
+    // The second body is one without a polycube: by itself its charts would be 0 to 5.
+    PolygonSoup wrong = test::ball(4);
+    for (int& part : wrong.parts) part = part == 1 ? 2 : part == 2 ? 1 : part;
+    PolygonSoup soup = test::ball(4);
+    test::append(soup, wrong, 1.0, Vec3(5, 0, 0));
+    const BlocksResult result = blocks_of(soup);
+    ASSERT_FALSE(result.report.violations.empty());
+    EXPECT_TRUE(result.blocks.empty());
+    for (const Diagnostic& violation : result.report.violations)
+        for (const std::int64_t chart : violation.ids) EXPECT_GE(chart, 6);
 }
 
 TEST(Blocks, AreTheSameForAnyNumberOfThreads) {

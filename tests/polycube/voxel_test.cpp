@@ -36,19 +36,6 @@ double volume(const HexMesh& mesh) {
     return sum;
 }
 
-/// Adds a surface to another, moved and perhaps turned inside out.
-void append(PolygonSoup& soup, const PolygonSoup& more, double scale, const Vec3& shift,
-            bool inside_out = false) {
-    const auto first = static_cast<std::uint32_t>(soup.points.size());
-    for (const Vec3& p : more.points) soup.points.push_back(scale * p + shift);
-    for (std::size_t f = 0; f < more.size(); ++f) {
-        std::vector<std::uint32_t> polygon(more.polygon(f).begin(), more.polygon(f).end());
-        if (inside_out) std::reverse(polygon.begin(), polygon.end());
-        for (std::uint32_t& v : polygon) v += first;
-        soup.add_polygon(polygon);
-    }
-}
-
 /// A box with its edges along the axes, cut out of nothing: grid planes lie on its faces.
 TEST(Voxel, ABoxIsMetExactly) {
     hex::VoxelOptions options;
@@ -98,8 +85,8 @@ TEST(Voxel, KeepsTheTopology) {
 TEST(Voxel, NestedShellsNeedNoOrientation) {
     for (const bool inside_out : {false, true}) {
         PolygonSoup soup = hex::test::ball(10);
-        append(soup, hex::test::ball(10), 0.75, Vec3::Zero(), inside_out);
-        append(soup, hex::test::ball(6), 0.5, Vec3(0.1, 0.05, 0.0), inside_out);
+        hex::test::append(soup, hex::test::ball(10), 0.75, Vec3::Zero(), inside_out);
+        hex::test::append(soup, hex::test::ball(6), 0.5, Vec3(0.1, 0.05, 0.0), inside_out);
         const hex::TriangleMesh mesh = hex::make_triangle_mesh(soup);
         const auto result = hex::voxel_blocks(mesh);
         EXPECT_EQ(result.report.surfaces, 3U);
@@ -111,8 +98,8 @@ TEST(Voxel, NestedShellsNeedNoOrientation) {
 /// Two balls through each other are two bodies, and so is one as small as a grain.
 TEST(Voxel, BodiesThatMeetAreMeshedEachByItself) {
     PolygonSoup soup = hex::test::ball(8);
-    append(soup, hex::test::ball(8), 1.0, Vec3(0.9, 0, 0));
-    append(soup, hex::test::ball(4), 1e-3, Vec3(0, 3, 0));
+    hex::test::append(soup, hex::test::ball(8), 1.0, Vec3(0.9, 0, 0));
+    hex::test::append(soup, hex::test::ball(4), 1e-3, Vec3(0, 3, 0));
     const auto result = hex::voxel_blocks(hex::make_triangle_mesh(soup));
     EXPECT_EQ(result.report.bodies, 3U);
     EXPECT_EQ(result.report.surfaces, 3U);
@@ -129,7 +116,7 @@ TEST(Voxel, ThinPlatesInAnyPosition) {
         EXPECT_EQ(boundary_euler(result.cells), 2) << angle;
     }
     PolygonSoup pair = hex::test::box_surface(1.0, 1.0, 0.5);
-    append(pair, hex::test::box_surface(1.0, 1.0, 0.5), 1.0, Vec3(0, 0, 0.53));
+    hex::test::append(pair, hex::test::box_surface(1.0, 1.0, 0.5), 1.0, Vec3(0, 0, 0.53));
     const auto result = hex::voxel_blocks(hex::make_triangle_mesh(pair));
     EXPECT_EQ(result.report.surfaces, 2U);
     EXPECT_EQ(boundary_euler(result.cells), 4);
@@ -150,7 +137,7 @@ TEST(Voxel, FollowsThinParts) {
 
 TEST(Voxel, NamesThePlaceThatNoGridResolves) {
     PolygonSoup soup = hex::test::ball(6);
-    append(soup, hex::test::ball(2), 1e-3, Vec3(0.25, 0, 0), true);
+    hex::test::append(soup, hex::test::ball(2), 1e-3, Vec3(0.25, 0, 0), true);
     hex::VoxelOptions options;
     options.most_cells = 8000;
     try {

@@ -72,4 +72,17 @@ inline PolygonSoup ball(int n) {
     return soup;
 }
 
+/// Adds a surface to another, moved and perhaps turned inside out; parts are kept.
+inline void append(PolygonSoup& soup, const PolygonSoup& more, double scale, const Vec3& shift,
+                   bool inside_out = false) {
+    const auto first = static_cast<std::uint32_t>(soup.points.size());
+    for (const Vec3& p : more.points) soup.points.push_back(scale * p + shift);
+    for (std::size_t f = 0; f < more.size(); ++f) {
+        std::vector<std::uint32_t> polygon(more.polygon(f).begin(), more.polygon(f).end());
+        if (inside_out) std::reverse(polygon.begin(), polygon.end());
+        for (std::uint32_t& v : polygon) v += first;
+        soup.add_polygon(polygon, more.parts[f]);
+    }
+}
+
 }  // namespace hex::test

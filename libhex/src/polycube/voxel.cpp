@@ -1,3 +1,4 @@
+#include "polycube/bodies.h"
 #include "polycube/voxel_target.h"
 
 #include <hex/base/error.h>
@@ -385,14 +386,14 @@ void append(VoxelResult& all, const VoxelResult& body) {
 }
 
 VoxelResult build(const TriangleMesh& surface, const VoxelOptions& options, const Context& context) {
-    const std::vector<TriangleMesh> bodies = voxels::bodies_of(surface);
+    const std::vector<Body> bodies = bodies_of(surface);
     double volume = 0.0;
-    for (const TriangleMesh& body : bodies) {
-        const BoundingBox box = bounding_box(body);
+    for (const Body& body : bodies) {
+        const BoundingBox box = bounding_box(body.surface);
         if (!((box.upper - box.lower).minCoeff() > 1e-9 * box.diagonal()))
             throw Error(ErrorKind::bad_input, "a component of the surface is flat",
                         "near " + text_of(0.5 * (box.lower + box.upper)), "give one that encloses a volume");
-        volume += volume_of(body, box.diagonal());
+        volume += volume_of(body.surface, box.diagonal());
     }
     const double size = options.cell_size > 0.0 ? options.cell_size
                                                 : size_for(options.target_cells, volume, area_of(surface),
@@ -400,8 +401,8 @@ VoxelResult build(const TriangleMesh& surface, const VoxelOptions& options, cons
     std::optional<VoxelResult> all;
     for (std::size_t b = 0; b < bodies.size(); ++b) {
         context.progress("voxel", static_cast<double>(b) / static_cast<double>(bodies.size()));
-        const double largest = largest_of_body * bounding_box(bodies[b]).diagonal();
-        VoxelResult one = build_body(bodies[b], std::min(size, largest), options, context);
+        const double largest = largest_of_body * bounding_box(bodies[b].surface).diagonal();
+        VoxelResult one = build_body(bodies[b].surface, std::min(size, largest), options, context);
         if (all)
             append(*all, one);
         else

@@ -1,11 +1,12 @@
 #include "polycube/voxel_target.h"
 
+#include "polycube/bodies.h"
+
 #include <hex/surface/polygon_soup.h>
 
 #include <CGAL/AABB_traits.h>
 #include <CGAL/AABB_tree.h>
 #include <CGAL/AABB_triangle_primitive.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Simple_cartesian.h>
 
 #include <algorithm>
@@ -15,145 +16,29 @@ namespace hex::voxels {
 namespace {
 
 using Kernel = CGAL::Simple_cartesian<double>;
-using ExactKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-
-template <class K>
-using Triangles = std::vector<typename K::Triangle_3>;
-template <class K>
+using Triangles = std::vector<Kernel::Triangle_3>;
 using Tree = CGAL::AABB_tree<
-    CGAL::AABB_traits<K, CGAL::AABB_triangle_primitive<K, typename Triangles<K>::const_iterator>>>;
+    CGAL::AABB_traits<Kernel, CGAL::AABB_triangle_primitive<Kernel, Triangles::const_iterator>>>;
 
 std::size_t index(TriangleMesh::FaceHandle f) {
     return static_cast<std::size_t>(f.idx());
 }
 
-template <class K>
-typename K::Triangle_3 triangle(const TriangleMesh& surface, TriangleMesh::FaceHandle f) {
-    std::array<typename K::Point_3, 3> p;
+Kernel::Triangle_3 triangle(const TriangleMesh& surface, TriangleMesh::FaceHandle f) {
+    std::array<Kernel::Point_3, 3> p;
     std::size_t i = 0;
     for (const auto v : surface.fv_range(f)) {
         const auto& q = surface.point(v);
-        p[i++] = typename K::Point_3(q[0], q[1], q[2]);
+        p[i++] = Kernel::Point_3(q[0], q[1], q[2]);
     }
     return {p[0], p[1], p[2]};
-}
-
-/// Numbers of the connected components of the triangles.
-std::vector<int> components_of(const TriangleMesh& surface, int& count) {
-    std::vector<int> component(surface.n_faces(), -1);
-    std::vector<TriangleMesh::FaceHandle> stack;
-    count = 0;
-    for (const auto start : surface.faces()) {
-        if (component[index(start)] >= 0) continue;
-        component[index(start)] = count;
-        stack.push_back(start);
-        while (!stack.empty()) {
-            const auto f = stack.back();
-            stack.pop_back();
-            for (const auto g : surface.ff_range(f)) {
-                if (component[index(g)] >= 0) continue;
-                component[index(g)] = count;
-                stack.push_back(g);
-            }
-        }
-        ++count;
-    }
-    return component;
-}
-
-/// A shell with a search tree that is only made when it is asked for.
-class Shell {
-  public:
-    void add(const ExactKernel::Triangle_3& t) {
-        triangles_.push_back(t);
-        for (int i = 0; i < 3; ++i) box_.add(Vec3(t[i].x(), t[i].y(), t[i].z()));
-    }
-    const BoundingBox& box() const { return box_; }
-
-    bool meets(Shell& other) {
-        Shell& small = triangles_.size() < other.triangles_.size() ? *this : other;
-        Tree<ExactKernel>& large = (&small == this ? other : *this).tree();
-        return std::any_of(small.triangles_.begin(), small.triangles_.end(),
-                           [&](const auto& t) { return large.do_intersect(t); });
-    }
-    /// Whether a shell that does not meet this one is inside: one of its points sees this one an odd number
-    /// of times along +x.
-    bool contains(const Shell& other) const {
-        const auto& q = other.triangles_.front()[0];
-        bool inside = false;
-        for (const auto& t : triangles_) {
-            const auto x = crossing({Vec3(t[0].x(), t[0].y(), t[0].z()), Vec3(t[1].x(), t[1].y(), t[1].z()),
-                                     Vec3(t[2].x(), t[2].y(), t[2].z())},
-                                    Vec2(q.y(), q.z()));
-            if (x && *x > q.x()) inside = !inside;
-        }
-        return inside;
-    }
-
-  private:
-    Tree<ExactKernel>& tree() {
-        if (!tree_) {
-            tree_ = std::make_unique<Tree<ExactKernel>>(triangles_.cbegin(), triangles_.cend());
-            tree_->build();
-        }
-        return *tree_;
-    }
-    Triangles<ExactKernel> triangles_;
-    BoundingBox box_;
-    std::unique_ptr<Tree<ExactKernel>> tree_;
-};
-
-bool boxes_meet(const BoundingBox& a, const BoundingBox& b) {
-    return (a.lower.array() <= b.upper.array()).all() && (b.lower.array() <= a.upper.array()).all();
-}
-bool box_within(const BoundingBox& a, const BoundingBox& b) {
-    return (a.lower.array() >= b.lower.array()).all() && (a.upper.array() <= b.upper.array()).all();
-}
-
-/// The body of each shell, numbered by their first shells.
-std::vector<int> body_of_shells(std::vector<Shell>& shells, int& count) {
-    const std::size_t n = shells.size();
-    std::vector<std::size_t> by_x(n);
-    for (std::size_t i = 0; i < n; ++i) by_x[i] = i;
-    std::sort(by_x.begin(), by_x.end(), [&](std::size_t a, std::size_t b) {
-        const double x = shells[a].box().lower.x();
-        const double y = shells[b].box().lower.x();
-        return x != y ? x < y : a < b;
-    });
-    std::vector<std::vector<std::size_t>> around(n);  // the shells that a shell is inside of
-    for (std::size_t i = 0; i < n; ++i) {
-        for (std::size_t k = i + 1; k < n; ++k) {
-            Shell& a = shells[by_x[i]];
-            Shell& b = shells[by_x[k]];
-            if (b.box().lower.x() > a.box().upper.x()) break;
-            if (!boxes_meet(a.box(), b.box())) continue;
-            const bool b_in_a = box_within(b.box(), a.box());
-            const bool a_in_b = box_within(a.box(), b.box());
-            if ((!b_in_a && !a_in_b) || a.meets(b)) continue;
-            if (b_in_a && a.contains(b)) around[by_x[k]].push_back(by_x[i]);
-            if (a_in_b && b.contains(a)) around[by_x[i]].push_back(by_x[k]);
-        }
-    }
-    std::vector<int> body(n, -1);
-    count = 0;
-    for (std::size_t s = 0; s < n; ++s)
-        if (around[s].size() % 2 == 0) body[s] = count++;
-    for (std::size_t s = 0; s < n; ++s) {
-        if (body[s] >= 0) continue;
-        const auto parent =
-            *std::max_element(around[s].begin(), around[s].end(), [&](std::size_t a, std::size_t b) {
-                return around[a].size() != around[b].size() ? around[a].size() < around[b].size() : a > b;
-            });
-        body[s] = around[parent].size() % 2 == 0 ? body[parent] : count++;
-    }
-    return body;
 }
 
 }  // namespace
 
 struct Target::Search {
-    Triangles<Kernel> triangles;
-    Tree<Kernel> tree;
+    Triangles triangles;
+    Tree tree;
 };
 
 Target::Target(const TriangleMesh& surface) {
@@ -182,7 +67,7 @@ Target::Target(const TriangleMesh& surface) {
     }
     if (count < 2) return;
     search_ = std::make_unique<Search>();
-    for (const auto f : surface.faces()) search_->triangles.push_back(triangle<Kernel>(surface, f));
+    for (const auto f : surface.faces()) search_->triangles.push_back(triangle(surface, f));
     search_->tree.insert(search_->triangles.cbegin(), search_->triangles.cend());
     search_->tree.build();
 }
@@ -240,31 +125,6 @@ Correspondence correspond(const CellSet& cells, const Pieces& pieces, const Targ
         result.component[b] = static_cast<int>(s);
     }
     return result;
-}
-
-std::vector<TriangleMesh> bodies_of(const TriangleMesh& surface) {
-    int count = 0;
-    const std::vector<int> component = components_of(surface, count);
-    if (count < 2) return {surface};
-    std::vector<Shell> shells(static_cast<std::size_t>(count));
-    for (const auto f : surface.faces())
-        shells[static_cast<std::size_t>(component[index(f)])].add(triangle<ExactKernel>(surface, f));
-    const std::vector<int> body = body_of_shells(shells, count);
-    std::vector<TriangleMesh> bodies(static_cast<std::size_t>(count));
-    std::vector<TriangleMesh::VertexHandle> copy(surface.n_vertices());
-    for (const auto f : surface.faces()) {
-        TriangleMesh& own =
-            bodies[static_cast<std::size_t>(body[static_cast<std::size_t>(component[index(f)])])];
-        std::array<TriangleMesh::VertexHandle, 3> corners;
-        std::size_t i = 0;
-        for (const auto v : surface.fv_range(f)) {
-            auto& c = copy[static_cast<std::size_t>(v.idx())];
-            if (!c.is_valid()) c = own.add_vertex(surface.point(v));
-            corners[i++] = c;
-        }
-        own.add_face(corners[0], corners[1], corners[2]);
-    }
-    return bodies;
 }
 
 }  // namespace hex::voxels

@@ -44,9 +44,4 @@ struct Correspondence {
 /// with most faces gets it.
 Correspondence correspond(const CellSet& cells, const Pieces& pieces, const Target& target);
 
-/// The surface cut into bodies: an outer shell and the voids right inside it, whichever way they are
-/// oriented. Shells that meet each other bound different bodies, which may overlap. In the order of their
-/// first triangle.
-std::vector<TriangleMesh> bodies_of(const TriangleMesh& surface);
-
 }  // namespace hex::voxels

@@ -58,7 +58,9 @@ std::filesystem::path list_file(const CommandLine& line, const std::string& what
 }
 
 Json report_of(const hex::BlocksReport& report) {
-    return {{"charts", report.charts},
+    return {{"bodies", report.bodies},
+            {"turned_shells", report.turned_shells},
+            {"charts", report.charts},
             {"sides", report.sides},
             {"polycube_corners", report.corners},
             {"orders", report.orders},

@@ -15,18 +15,20 @@ namespace hex {
 
 struct BlocksOptions {
     /// Length in space of one unit of the integer polycube, > 0; charts closer than about half of it may come
-    /// to lie in one plane. 0: the edge of a cube with 1/1500 of the volume.
+    /// to lie in one plane. 0: the edge of a cube with 1/1500 of the volume of all bodies.
     double unit = 0.0;
 };
 
 struct BlocksReport {
+    std::size_t bodies = 0;         ///< outer shells, each with its voids, which have a polycube each
+    std::size_t turned_shells = 0;  ///< outer shells oriented inwards and voids oriented outwards
     std::size_t charts = 0;
     std::size_t sides = 0;         ///< edges of the polycube
     std::size_t corners = 0;       ///< of the polycube
     std::size_t orders = 0;        ///< order constraints between charts that were kept
     std::size_t turned_sides = 0;  ///< sides whose direction had to differ from that in space
     std::size_t rounds = 0;        ///< integer programs solved until no charts overlapped
-    std::array<std::size_t, 3> planes = {0, 0, 0};  ///< of charts, along x, y, z
+    std::array<std::size_t, 3> planes = {0, 0, 0};  ///< of charts, along x, y, z, of all bodies
     std::size_t cells = 0;                          ///< between those planes, inside
     std::size_t blocks = 0;
     std::size_t patches = 0;
@@ -51,7 +53,9 @@ struct BlocksResult {
     BlocksReport report;
 };
 
-/// Makes the blocks of a labelled closed surface:
+/// Makes the blocks of a labelled closed surface. Each body, an outer shell with the voids right inside it,
+/// has a polycube of its own, so bodies may be as near to each other as they like, or overlap. Nesting tells
+/// what is a void; shells that are oriented the other way are turned in the patches. For each body:
 /// 1. every chart gets one integer coordinate along its axis. The ends of every side of the polycube keep
 /// their order in
 ///    space, and so do charts that see each other along their axis, as far as that closes no cycle; the sum
