@@ -2,13 +2,16 @@
 
 #include <hex/base/error.h>
 #include <hex/io/hex_file.h>
-#include <hex/io/surface_file.h>
 #include <hex/surface/polygon_soup.h>
 
 namespace cli {
 
 hex::TriangleMesh load_triangles(const CommandLine& line, const std::filesystem::path& path) {
-    const auto file = hex::io::read_surface(path);
+    return triangles_of(line, hex::io::read_surface(path), path);
+}
+
+hex::TriangleMesh triangles_of(const CommandLine& line, const hex::io::SurfaceFile& file,
+                               const std::filesystem::path& path) {
     line.log(file.diagnostics);
     try {
         hex::TriangleMesh mesh = hex::make_triangle_mesh(file.soup);

@@ -10,7 +10,6 @@
 #include <hex/io/list_file.h>
 #include <hex/io/mesh_file.h>
 #include <hex/io/surface_file.h>
-#include <hex/surface/polygon_soup.h>
 #include <spline/fit.h>
 #include <spline/io/bext.h>
 #include <spline/io/bext2.h>
@@ -84,15 +83,9 @@ struct Part {
 Part load_part(const CommandLine& line) {
     if (!line.given("surface")) return {};
     const std::filesystem::path path = line.get<std::string>("surface");
-    hex::io::SurfaceFile file = hex::io::read_surface(path);
-    line.log(file.diagnostics);
+    const hex::io::SurfaceFile file = hex::io::read_surface(path);
     Part part;
-    try {
-        part.surface = hex::make_triangle_mesh(file.soup);
-        line.log(hex::inspect(*part.surface), path.string());
-    } catch (const hex::Error& error) {
-        throw error.located(path.string());
-    }
+    part.surface = triangles_of(line, file, path);
     if (file.sharp_edges.empty()) {
         part.sharp_edges = spline::sharp_segments(*part.surface, line.get<double>("tolerance"));
     } else {
