@@ -141,6 +141,9 @@ TEST(Bext2, BrokenFilesAreRefusedWithTheirLine) {
     wrong.replace(wrong.find("\n       1") + 1, 8, "       x");
     EXPECT_TRUE(refused(wrong));
     EXPECT_TRUE(refused(""));
+    EXPECT_TRUE(refused("B E X T 2.0\n1 0 0 0 1\n0\n0 0\n"));
+    // Elements that take nothing from the file, as many as one likes.
+    EXPECT_TRUE(refused("B E X T 2.0\n1 0 4000000000 0 1\n1\n1 4000000000 0 0 3 3 3\n0 0\n"));
 }
 
 TEST(Deck, HasASetOfControlPointsForEveryPatch) {

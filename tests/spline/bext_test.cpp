@@ -100,6 +100,7 @@ const Broken broken_files[] = {
     {"node_count", "nodeN 8", "nodeN 9", "nodeN says 9 control points, there are 8", 0},
     {"too_many_nodes", "nodeN 8", "nodeN 7", "more control points than nodeN", 12},
     {"element_count", "elemN 1", "elemN 2", "elemN says 2 elements, there are 1", 0},
+    {"no_elements", "elemN 1", "elemN 0", "has no elements", 4},
     {"huge_count", "elemN 1", "elemN 99999999999999", "elemN says", 0},
     {"coordinate", "gnode 1 0 0 1", "gnode 1 x 0 1", "'x' where a coordinate", 6},
     {"not_a_number", "gnode 1 0 0 1", "gnode 1 nan 0 1", "'nan' where a coordinate", 6},

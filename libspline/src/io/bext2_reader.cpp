@@ -41,6 +41,7 @@ class Reader {
         data_.patch = words_.integer("the patch id");
         const std::size_t nodes = words_.count("the number of control points");
         elements_ = words_.count("the number of elements");
+        if (elements_ == 0) words_.fail("has no elements");
         vectors_ = words_.count("the number of coefficient vectors");
         data_.weight_flag = words_.integer("the weight flag");
         data_.points.reserve(words_.at_most_left(nodes) / 4);
@@ -57,6 +58,8 @@ class Reader {
         block.type = static_cast<int>(words_.integer("the element type"));
         block.elements = words_.count("the number of elements");
         block.functions = words_.count("the number of control points of an element");
+        // Nothing would be left to read for each of so many elements.
+        if (block.functions == 0) words_.fail("elements without control points");
         const std::size_t vectors = words_.count("the number of coefficient vectors of an element");
         if (vectors != block.functions)
             words_.fail(std::to_string(vectors) + " coefficient vectors for " +

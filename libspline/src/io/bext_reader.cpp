@@ -58,6 +58,7 @@ class Reader {
         nodes_ = words_.count("the number of control points");
         words_.keyword("elemN");
         elements_ = words_.count("the number of elements");
+        if (elements_ == 0) words_.fail("has no elements");
         // A header that lies must not make us ask for more memory than the file could fill.
         spline_.control_points.reserve(std::min(nodes_, words_.bytes_left() / 13));
         spline_.weights.reserve(spline_.control_points.capacity());
