@@ -174,9 +174,17 @@ TEST(SegmentAuto, EveryAttemptIsValid) {
     const TriangleMesh mesh = make_triangle_mesh(soup);
     SegmentOptions options;
 
+    std::shared_ptr<SegmentResult> known;
     for (options.attempt = 0; options.attempt < 4; ++options.attempt) {
         const auto result = segment(mesh, options);
         EXPECT_EQ(errors_of(result), 0U);
+        EXPECT_EQ(known != nullptr, options.attempt == 1);
+        if (known) {
+            EXPECT_EQ(known->segmentation.labels, result.segmentation.labels);
+            EXPECT_EQ(known->report.charts, result.report.charts);
+            EXPECT_EQ(known->report.repairs.size(), result.report.repairs.size());
+        }
+        known = result.next_attempt;
     }
 
     EXPECT_THROW(segment(mesh, options), Error);

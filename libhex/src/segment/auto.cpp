@@ -2,6 +2,7 @@
 #include "segment/label_cut.h"
 #include "segment/label_repair.h"
 
+#include <hex/base/parallel.h>
 #include <hex/segment/segment.h>
 
 #include <vector>
@@ -24,12 +25,16 @@ class Automatic final : public Segmenter {
             const auto t = static_cast<std::size_t>(avoided.triangle);
             surface.costs[t][static_cast<std::size_t>(avoided.label)] += price_of_avoided * surface.areas[t];
         }
-        std::vector<LabelRepair> found;
-        for (const double compactness : compactness_of(options.attempt)) {
-            context.progress("auto", static_cast<double>(found.size()) / 2);
-            context.check_cancelled();
-            found.push_back(repair_labels(mesh, surface, cut_labels(surface, compactness), context));
-        }
+        const std::vector<double> compactness = compactness_of(options.attempt);
+        std::vector<LabelRepair> found(compactness.size());
+        context.progress("auto", 0.0);
+        parallel_for(
+            found.size(),
+            [&](std::size_t i) {
+                context.check_cancelled();
+                found[i] = repair_labels(mesh, surface, cut_labels(surface, compactness[i]), context);
+            },
+            1);
         context.progress("auto", 1.0);
         // Of two, the first attempt takes the better one, the second the other.
         std::size_t chosen = 0;
@@ -38,14 +43,23 @@ class Automatic final : public Segmenter {
                 found[1].score.energy(weight_of_validity) < found[0].score.energy(weight_of_validity);
             chosen = second_is_better == (options.attempt == 0) ? 1 : 0;
         }
-        result.segmentation.labels = std::move(found[chosen].labels);
-        result.report.repairs = std::move(found[chosen].repairs);
+        take(std::move(found[chosen]), result);
+        if (options.attempt == 0) {
+            result.next_attempt = std::make_shared<SegmentResult>();
+            result.next_attempt->rotation = result.rotation;
+            take(std::move(found[1 - chosen]), *result.next_attempt);
+        }
         return result;
     }
 
   private:
     static constexpr double weight_of_validity = 1.0;
     static constexpr double price_of_avoided = 0.5;  // 1 - cos 60 degrees
+
+    static void take(LabelRepair&& found, SegmentResult& result) {
+        result.segmentation.labels = std::move(found.labels);
+        result.report.repairs = std::move(found.repairs);
+    }
 
     /// More compactness means fewer charts and straighter boundaries, paid in faith; beyond 0.05 too much.
     static std::vector<double> compactness_of(int attempt) {

@@ -38,6 +38,25 @@ void apply_manual(const SegmentOptions& options, SegmentResult& result) {
     }
 }
 
+/// Checks what a method gives, and adds what it leaves to the stage.
+void complete(const TriangleMesh& mesh, const SegmentOptions& options, SegmentResult& result) {
+    result.report.method = options.method;
+    try {
+        require_labels(result.segmentation, mesh.n_faces());
+    } catch (const Error& error) {
+        throw Error(ErrorKind::no_result,
+                    "method '" + options.method + "' gives no labelling: " + error.problem(), error.where());
+    }
+    apply_manual(options, result);
+    for (const int label : result.segmentation.labels)
+        ++result.report.label_counts[static_cast<std::size_t>(label)];
+    const LabelCharts charts = find_charts(mesh, result.segmentation);
+    result.report.charts = charts.charts.size();
+    result.report.boundaries = charts.boundaries.size();
+    result.report.corners = charts.corners.size();
+    result.report.violations = validate_charts(charts);
+}
+
 }  // namespace
 
 const char* label_name(int label) {
@@ -78,22 +97,8 @@ SegmentResult segment(const TriangleMesh& mesh, const SegmentOptions& options, c
     require_in_range(options.avoid, "label to avoid", mesh.n_faces());
     return with_threads(context, [&] {
         SegmentResult result = method->segment(mesh, options, context);
-        result.report.method = options.method;
-        try {
-            require_labels(result.segmentation, mesh.n_faces());
-        } catch (const Error& error) {
-            throw Error(ErrorKind::no_result,
-                        "method '" + options.method + "' gives no labelling: " + error.problem(),
-                        error.where());
-        }
-        apply_manual(options, result);
-        for (const int label : result.segmentation.labels)
-            ++result.report.label_counts[static_cast<std::size_t>(label)];
-        const LabelCharts charts = find_charts(mesh, result.segmentation);
-        result.report.charts = charts.charts.size();
-        result.report.boundaries = charts.boundaries.size();
-        result.report.corners = charts.corners.size();
-        result.report.violations = validate_charts(charts);
+        complete(mesh, options, result);
+        if (result.next_attempt) complete(mesh, options, *result.next_attempt);
         return result;
     });
 }

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -97,10 +98,12 @@ struct SegmentResult {
     /// transpose undoes it.
     Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
     SegmentReport report;
+    /// What the same with the next SegmentOptions::attempt gives, where that came out, too; else null.
+    std::shared_ptr<SegmentResult> next_attempt;
 };
 
-/// Interface of a segmentation method. Implementations fill `segmentation`, and `report.sweeps` when they
-/// iterate; the stage adds the rest.
+/// Interface of a segmentation method. Implementations fill `segmentation`, `report.sweeps` when they
+/// iterate, and `next_attempt` when they know it; the stage adds the rest.
 class Segmenter {
   public:
     virtual ~Segmenter() = default;
