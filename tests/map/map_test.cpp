@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <stop_token>
 
 namespace hex {
@@ -229,6 +230,20 @@ TEST(Map, EdgeLengthCutsEverySheetByItsOwnLength) {
     EXPECT_NEAR(summarize(result.mesh).min, 1.0, 1e-12);
     EXPECT_EQ(map(surface, blocks, {.target_hexes = 6000}).mesh.cell_count(), 6000U);
     EXPECT_EQ(map(surface, blocks, {.target_hexes = 1}).mesh.cell_count(), 1U);
+}
+
+TEST(Map, MemoryOfEarlierCallsChangesNothing) {
+    const Case c = bent(test::grid(2, 1, 1));
+    std::shared_ptr<MapMemory> memory;
+    for (const std::size_t target : {20U, 500U, 20U}) {
+        const MapResult plain = map(c.surface, c.blocks, {.target_hexes = target});
+        const MapResult again = map(c.surface, c.blocks, {.target_hexes = target, .memory = &memory});
+        EXPECT_TRUE(memory != nullptr);
+        EXPECT_TRUE(std::ranges::equal(plain.mesh.positions(), again.mesh.positions()));
+        EXPECT_EQ(plain.report.patch_maps.size(), again.report.patch_maps.size());
+        EXPECT_EQ(plain.report.diagnostics.size(), again.report.diagnostics.size());
+        EXPECT_EQ(plain.report.largest_snap, again.report.largest_snap);
+    }
 }
 
 TEST(Map, BlockVerticesAreSnappedToTheSurfaceAndFarOnesWarnedOf) {

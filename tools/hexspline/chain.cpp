@@ -157,7 +157,10 @@ void Chain::label(int attempt) {
     options.boundary_weight = line_.get<double>("weight");
     options.attempt = attempt;
     if (line_.given("weight")) options.method = "hbecvt";
-    auto result = hex::segment(*surface_, options, line_.context());
+    hex::SegmentResult result = attempt > 0 && next_labels_
+                                    ? std::move(*next_labels_)
+                                    : hex::segment(*surface_, options, line_.context());
+    next_labels_ = std::move(result.next_attempt);
     choice_.count_labelled(surface_->n_faces());
     if (std::find(tried_labels_.begin(), tried_labels_.end(), result.segmentation.labels) !=
         tried_labels_.end())
@@ -211,6 +214,7 @@ void Chain::polycube_of_patches() {
     for (const auto f : mesh.faces())
         mesh.data(f).part = result.polycube.layout.patch_of_triangle[static_cast<std::size_t>(f.idx())] + 1;
     patches_ = std::move(mesh);
+    map_memory_.reset();
     write_polycube(result.polycube);
     if (!line_.given("blocks")) return;
     blocks_ = load_hexahedra(line_, line_.get<std::string>("blocks"));
@@ -246,6 +250,7 @@ void Chain::polycube_of_labels() {
     report_["corners"] = quads.report.corners;
     patches_ = std::move(made.patches);
     blocks_ = std::move(made.blocks);
+    map_memory_.reset();
     blocks_made_ = true;
     write_polycube(quads.polycube);
     hex::io::write_hex_mesh(folder_ / "2-blocks.k", *blocks_);

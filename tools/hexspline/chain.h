@@ -13,6 +13,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -57,6 +58,7 @@ class Chain {
         std::optional<hex::Segmentation> segmentation;
         std::optional<hex::TriangleMesh> patches;
         hex::HexMesh blocks;
+        std::shared_ptr<hex::MapMemory> map_memory;
         Json report;
     };
 
@@ -135,11 +137,13 @@ class Chain {
     std::optional<hex::TriangleMesh> surface_;
     std::optional<hex::Segmentation> segmentation_;
     std::optional<hex::Segmentation> first_labels_;
-    Json first_report_;  ///< as it was with the first labels
+    Json first_report_;                                ///< as it was with the first labels
+    std::shared_ptr<hex::SegmentResult> next_labels_;  ///< of the next attempt, when they are known
     std::vector<std::vector<int>> tried_labels_;
     int attempt_ = 0;
     std::optional<hex::TriangleMesh> patches_;
     std::optional<hex::HexMesh> blocks_;
+    std::shared_ptr<hex::MapMemory> map_memory_;  ///< of patches_ and blocks_
     std::optional<hex::HexMesh> mapped_;
     double mapped_target_ = 0.0;
     double mapped_apart_ = 0.0;

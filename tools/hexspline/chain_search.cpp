@@ -77,7 +77,7 @@ bool Chain::take_other_labels() {
 
 void Chain::postpone(double nearest) {
     if (postponed_ && postponed_->nearest <= nearest) return;
-    postponed_ = Postponed{nearest, surface(), segmentation_, patches_, blocks(), report_};
+    postponed_ = Postponed{nearest, surface(), segmentation_, patches_, blocks(), map_memory_, report_};
 }
 
 bool Chain::take_postponed() {
@@ -91,6 +91,7 @@ bool Chain::take_postponed() {
     segmentation_ = std::move(taken.segmentation);
     patches_ = std::move(taken.patches);
     blocks_ = std::move(taken.blocks);
+    map_memory_ = std::move(taken.map_memory);
     report_ = std::move(taken.report);
     if (!tried_labels_.empty()) write_labels();
     write_polycube(hex::polycube(*patches_, {}, line_.context()).polycube);
@@ -102,6 +103,7 @@ void Chain::take_voxel_route() {
     route_ = "voxel";
     patches_.reset();
     blocks_.reset();
+    map_memory_.reset();
     mapped_.reset();
     if (first_labels_) {
         segmentation_ = first_labels_;
@@ -126,6 +128,7 @@ bool Chain::wants_more() const {
 Chain::Mapped Chain::mapped_to(double target) {
     hex::MapOptions options = element_size(line_);
     options.target_hexes = static_cast<std::size_t>(target);
+    options.memory = &map_memory_;
     Mapped mapped;
     mapped.target = target;
     try {
@@ -259,6 +262,7 @@ void Chain::keep_best() {
         segmentation_ = best.segmentation;
         patches_ = best.patches;
         blocks_ = best.blocks;
+        map_memory_.reset();
         if (!tried_labels_.empty()) write_labels();
         if (patches_) write_polycube(hex::polycube(*patches_, {}, line_.context()).polycube);
         hex::io::write_hex_mesh(folder_ / "2-blocks.k", *blocks_);

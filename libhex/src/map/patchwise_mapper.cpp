@@ -210,6 +210,23 @@ std::vector<double> lengths_of_edges(const TriangleMesh& surface, const HexMesh&
     return lengths;
 }
 
+/// What does not depend on the size of the elements.
+struct Prepared final : MapMemory {
+    Prepared(const TriangleMesh& surface, const HexMesh& blocks, double snap_warning)
+        : layout(find_patches(surface)),
+          quads(boundary_quads(blocks)),
+          edges(edge_table(blocks)),
+          match(match_blocks(surface, layout, blocks, quads, edges, snap_warning)),
+          lengths(lengths_of_edges(surface, blocks, edges, match)) {}
+
+    PatchLayout layout;
+    BoundaryQuads quads;
+    EdgeTable edges;
+    BlockMatch match;
+    std::vector<double> lengths;
+    std::vector<PatchMap> maps;  ///< none before they are needed
+};
+
 class PatchwiseMapper : public Mapper {
   public:
     MapResult map(const TriangleMesh& surface, const HexMesh& blocks, const MapOptions& options,
@@ -218,23 +235,32 @@ class PatchwiseMapper : public Mapper {
     }
 
   private:
+    static std::shared_ptr<Prepared> prepare(const TriangleMesh& surface, const HexMesh& blocks,
+                                             const MapOptions& options) {
+        if (options.memory != nullptr)
+            if (auto known = std::dynamic_pointer_cast<Prepared>(*options.memory)) return known;
+        auto made = std::make_shared<Prepared>(surface, blocks, options.snap_warning);
+        if (options.memory != nullptr) *options.memory = made;
+        return made;
+    }
+
     static MapResult run(const TriangleMesh& surface, const HexMesh& blocks, const MapOptions& options,
                          const Context& context) {
         context.check_cancelled();
         context.progress("patches", 0.0);
-        const PatchLayout layout = find_patches(surface);
-        const BoundaryQuads quads = boundary_quads(blocks);
-        const EdgeTable edges = edge_table(blocks);
-        BlockMatch match = match_blocks(surface, layout, blocks, quads, edges, options.snap_warning);
-        const std::vector<double> lengths = lengths_of_edges(surface, blocks, edges, match);
+        const std::shared_ptr<Prepared> prepared = prepare(surface, blocks, options);
+        const EdgeTable& edges = prepared->edges;
+        const BlockMatch& match = prepared->match;
+        const std::vector<double>& lengths = prepared->lengths;
         MapResult result;
         const BlockNumbering numbering(blocks, edges,
                                        divide(blocks, edges, lengths, options, context, result.report));
 
-        const std::vector<PatchMap> maps = map_patches(surface, layout, context);
+        if (prepared->maps.empty()) prepared->maps = map_patches(surface, prepared->layout, context);
         context.progress("edges", 0.4);
-        std::vector<Vec3> positions =
-            NodePlacer(surface, blocks, quads, edges, match, numbering, maps, options.interior).run(context);
+        std::vector<Vec3> positions = NodePlacer(surface, blocks, prepared->quads, edges, match, numbering,
+                                                 prepared->maps, options.interior)
+                                          .run(context);
         std::vector<HexCell> cells = numbering.cells();
         if (options.interior == Interior::harmonic)
             result.report.held_back_nodes =
@@ -254,8 +280,8 @@ class PatchwiseMapper : public Mapper {
         result.mesh = HexMesh(std::move(positions), std::move(cells), std::move(parts));
         result.report.blocks = blocks.cell_count();
         result.report.largest_snap = match.largest_snap;
-        result.report.diagnostics = std::move(match.diagnostics);
-        report_patches(layout, maps, result.report);
+        result.report.diagnostics = match.diagnostics;
+        report_patches(prepared->layout, prepared->maps, result.report);
         context.progress("mesh", 1.0);
         return result;
     }

@@ -8,6 +8,7 @@
 #include <hex/surface/mesh_types.h>
 #include <hex/volume/hex_mesh.h>
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,12 @@ enum class Interior {
 std::string name_of(Interior interior);
 Interior interior_named(const std::string& name);
 
+/// What a method keeps for the next call with the same surface and blocks, such as the maps of the patches.
+class MapMemory {
+  public:
+    virtual ~MapMemory() = default;
+};
+
 struct MapOptions {
     /// Name of the method in the registry: `patchwise` (harmonic patches, blocks filled as `interior` says)
     /// or a plug-in's.
@@ -42,6 +49,9 @@ struct MapOptions {
     /// A block corner farther than this from its surface corner, in units of the bounding box diagonal, is
     /// warned about.
     double snap_warning = 1e-3;
+    /// Where calls that differ only in the size of the elements leave what they have in common; starts as
+    /// null. The result is the same with and without.
+    std::shared_ptr<MapMemory>* memory = nullptr;
 };
 
 /// The largest MapOptions::level.
