@@ -1,5 +1,7 @@
 /// The search for closest points.
 
+#include "surface/search_set.h"
+
 #include <hex/base/error.h>
 #include <hex/surface/closest_point.h>
 
@@ -66,6 +68,29 @@ TEST(ClosestPoint, OfFewTrianglesIsTheNearestWhereverItStarts) {
                 const auto found = search(p, hint);
                 EXPECT_NEAR((found.point - p).norm(), nearest, 1e-12) << count << " from " << hint;
                 EXPECT_NEAR(((*single[found.triangle])(p).point - p).norm(), nearest, 1e-12);
+            }
+        }
+    }
+}
+
+TEST(ClosestPoint, MemoryOfAPointThatMovesChangesNothing) {
+    std::mt19937 random(6);
+    std::uniform_real_distribution<double> place(-1.0, 1.0), exponent(-6.0, 0.0);
+    for (const std::size_t count : {1U, 3U, 20U, 2000U}) {
+        const hex::TriangleSearch search(random_triangles(count, 7));
+        for (int walk = 0; walk < 20; ++walk) {
+            hex::TriangleSearch::Memory memory;
+            Vec3 p(place(random), place(random), place(random));
+            std::uint32_t hint = 0;
+            for (int step = 0; step < 50; ++step) {
+                const auto plain = search.closest(p, hint);
+                const auto found = search.closest(p, hint, &memory);
+                ASSERT_EQ(found.point, plain.point);
+                ASSERT_EQ(found.item, plain.item);
+                hint = found.item;
+                // Mostly onto the surface, as in the use that this is made for.
+                if (step % 3 > 0) p = found.point;
+                p += std::pow(10.0, exponent(random)) * Vec3(place(random), place(random), place(random));
             }
         }
     }

@@ -221,13 +221,13 @@ BoundaryGuide::BoundaryGuide(const HexMesh& mesh, const EdgeTable& edges, const 
 
 BoundaryGuide::~BoundaryGuide() = default;
 
-BoundaryGuide::Place BoundaryGuide::nearest(VertexId v, const Vec3& p,
-                                            std::optional<std::uint32_t> hint) const {
+BoundaryGuide::Place BoundaryGuide::nearest(VertexId v, const Vec3& p, std::optional<std::uint32_t> hint,
+                                            TriangleSearch::Memory* memory) const {
     const std::uint32_t part = part_[v.index()];
     switch (freedom_[v.index()]) {
         case Freedom::region: {
             const Region& region = parts_->regions[part];
-            const auto found = region.search->closest(p, hint);
+            const auto found = region.search->closest(p, hint, memory);
             return {found.point, parts_->surface.normals[region.triangles[found.item]], found.item};
         }
         case Freedom::curve: {
@@ -248,8 +248,9 @@ BoundaryGuide::Place BoundaryGuide::nearest(VertexId v, const Vec3& p,
 }
 
 BoundaryGuide::Place BoundaryGuide::nearest_smooth(VertexId v, const Vec3& p,
-                                                   std::optional<std::uint32_t> hint) const {
-    if (freedom_[v.index()] != Freedom::curve) return nearest(v, p, hint);
+                                                   std::optional<std::uint32_t> hint,
+                                                   TriangleSearch::Memory* memory) const {
+    if (freedom_[v.index()] != Freedom::curve) return nearest(v, p, hint, memory);
     const std::uint32_t part = part_[v.index()];
     const auto found = parts_->fine_search[part]->closest(p, hint);
     const auto& fine = parts_->fine_points[part];

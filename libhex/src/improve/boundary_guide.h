@@ -4,6 +4,7 @@
 #pragma once
 
 #include "improve/surface_curves.h"
+#include "surface/search_set.h"
 
 #include <memory>
 #include <optional>
@@ -46,13 +47,15 @@ class BoundaryGuide {
     };
 
     /// Closest point on the part of a boundary vertex. \param hint `item` of an earlier answer for it.
-    Place nearest(VertexId v, const Vec3& p, std::optional<std::uint32_t> hint = {}) const;
+    Place nearest(VertexId v, const Vec3& p, std::optional<std::uint32_t> hint = {},
+                  TriangleSearch::Memory* memory = nullptr) const;
     /// The same, but curves are finer polylines through smooth stand-ins of the surface's: three vertices on
     /// one segment, where a corner of an element has no volume, are a trap for a minimiser. A point of a
     /// segment is moved halfway to its mean projection onto the tangents at the segment's ends, as in Phong
     /// tessellation (Boubekeur and Alexa 2008; the factor 1/2 is the one that reproduces circles). Hints are
     /// not those of `nearest`.
-    Place nearest_smooth(VertexId v, const Vec3& p, std::optional<std::uint32_t> hint = {}) const;
+    Place nearest_smooth(VertexId v, const Vec3& p, std::optional<std::uint32_t> hint = {},
+                         TriangleSearch::Memory* memory = nullptr) const;
     /// The two ends of the segment of a curve that `item` of `nearest` numbers: where the curve has its
     /// kinks.
     std::array<Vec3, 2> segment(VertexId v, std::uint32_t item) const;

@@ -49,6 +49,7 @@ SlidingMesh::SlidingMesh(const HexMesh& mesh, const EdgeTable& edges, const Boun
       axis_(mesh.vertex_count(), Vec3::Zero()),
       item_(mesh.vertex_count()),
       foot_(mesh.vertex_count(), Vec3::Zero()),
+      memory_(guide == nullptr ? 0 : mesh.vertex_count()),
       cell_gradient_(mesh.cell_count()),
       cell_value_(mesh.cell_count()) {}
 
@@ -112,7 +113,9 @@ double SlidingMesh::evaluate(const MeshEnergy& energy, std::vector<Vec3>* gradie
 }
 
 BoundaryGuide::Place SlidingMesh::on_part(VertexId v, const Vec3& p) const {
-    return smooth_ ? guide_->nearest_smooth(v, p, item_[v.index()]) : guide_->nearest(v, p, item_[v.index()]);
+    const auto hint = item_[v.index()];
+    TriangleSearch::Memory* const memory = &memory_[v.index()];
+    return smooth_ ? guide_->nearest_smooth(v, p, hint, memory) : guide_->nearest(v, p, hint, memory);
 }
 
 SlidingMesh::Spot SlidingMesh::place(VertexId v, const Vec3& p) const {

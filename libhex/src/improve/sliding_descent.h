@@ -61,7 +61,7 @@ class SlidingMesh {
     struct Spot : BoundaryGuide::Place {
         Vec3 foot;
     };
-    /// Where a boundary vertex that is wanted at p goes.
+    /// Where a boundary vertex that is wanted at p goes. Not for the same vertex at the same time.
     Spot place(VertexId v, const Vec3& p) const;
     /// Moves by `step` x `direction` from `origin`, boundary vertices to the nearest place of their part.
     void retract(std::span<const Vec3> origin, std::span<const Vec3> direction, double step);
@@ -93,6 +93,7 @@ class SlidingMesh {
     std::vector<Vec3> axis_;                    // normal or direction of each boundary vertex's place
     std::vector<std::optional<std::uint32_t>> item_;
     std::vector<Vec3> foot_;
+    mutable std::vector<TriangleSearch::Memory> memory_;  // of each boundary vertex
     mutable std::vector<std::array<Vec3, 8>> cell_gradient_;
     mutable std::vector<double> cell_value_;
     mutable double work_ = 0.0;

@@ -1,6 +1,7 @@
 #include "surface/box_tree.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <limits>
 
@@ -161,9 +162,7 @@ void BoxTree<Corners>::search_leaf(const Four& leaf, const Vec3& p, Best& best) 
         if (i == 1) pair_bound = best.squared;
         if (squared[i] > clearly * best.squared) continue;
         const std::uint32_t item = leaf.content[i];
-        if (item == best.item ||
-            std::find(best.farther.begin(), best.farther.end(), item) != best.farther.end())
-            continue;
+        if (best.knows(item)) continue;
         // Of three items the last two have a box of their own.
         if (i > 0 && leaf.count == 3 && !(squared_distance(box_of(leaf.content[1], 2), p) <= pair_bound))
             return;
@@ -174,6 +173,61 @@ void BoxTree<Corners>::search_leaf(const Four& leaf, const Vec3& p, Best& best) 
         best.squared = distance;
         best.item = item;
     }
+}
+
+template <std::size_t Corners>
+void BoxTree<Corners>::list_near(const Vec3& p, double radius, Near& near) const {
+    struct Found {
+        double squared;
+        std::uint32_t item;
+    };
+    std::array<Found, Near::most> found;
+    std::size_t count = 0;
+    double bound = radius * radius;
+    const auto add_leaf = [&](const Four& leaf) {
+        const std::array<double, 4> squared = squared_distances(leaf.low, leaf.high, p);
+        for (std::size_t i = 0; i < leaf.count; ++i) {
+            if (!(squared[i] < bound)) continue;
+            std::size_t at = count < found.size() ? count++ : count - 1;
+            for (; at > 0 && found[at - 1].squared > squared[i]; --at) found[at] = found[at - 1];
+            found[at] = {squared[i], leaf.content[i]};
+            if (count == found.size()) bound = found.back().squared;
+        }
+    };
+    std::array<std::uint32_t, 64> stack;
+    std::size_t size = 0;
+    stack[size++] = nodes_.empty() ? ~std::uint32_t{0} : 0;
+    while (size > 0) {
+        const std::uint32_t next = stack[--size];
+        if (static_cast<std::int32_t>(next) < 0) {
+            add_leaf(leaves_[~next]);
+            continue;
+        }
+        const Four& node = nodes_[next];
+        const std::array<double, 4> squared = squared_distances(node.low, node.high, p);
+        for (std::size_t i = 0; i < node.count; ++i)
+            if (squared[i] < bound) stack[size++] = node.content[i];
+    }
+    constexpr float downwards = 1.0F - 1e-6F;
+    near.centre = p;
+    near.clear = std::sqrt(bound);
+    near.count = count;
+    for (std::size_t i = 0; i < count; ++i)
+        near.items[i] = {downwards * static_cast<float>(std::sqrt(found[i].squared)), found[i].item};
+}
+
+template <std::size_t Corners>
+bool BoxTree<Corners>::is_found(const Vec3& p, const Best& best, const Near& near) const {
+    constexpr double surely = 1.0 + 1e-6;
+    const double reach = surely * (std::sqrt(best.squared) + (p - near.centre).norm());
+    if (!(reach < near.clear)) return false;
+    for (std::size_t i = 0; i < near.count && near.items[i].distance <= reach; ++i) {
+        const std::uint32_t item = near.items[i].item;
+        if (best.knows(item)) continue;
+        const Vec3 point = nearest_point_of(items_[item], p);
+        if ((point - p).squaredNorm() <= best.squared && point != best.point) return false;
+    }
+    return true;
 }
 
 template class BoxTree<3>;

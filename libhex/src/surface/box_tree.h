@@ -41,10 +41,31 @@ class BoxTree {
         double squared;                                             ///< distance to it
         std::uint32_t item = none;                                  ///< that has the point
         std::array<std::uint32_t, 3> farther = {none, none, none};  ///< items known to be farther
+        bool knows(std::uint32_t other) const {
+            return other == item || other == farther[0] || other == farther[1] || other == farther[2];
+        }
     };
     /// Goes from left to right through what is as near as the best point so far: of points that are equally
     /// near the last is taken. An item is not looked at when its own box is clearly farther.
     void search(const Vec3& p, Best& best) const;
+
+    /// Items near a point.
+    struct Near {
+        static constexpr std::size_t most = 16;
+        Vec3 centre = Vec3::Zero();
+        double clear = 0.0;  ///< all other items are at least so far from it
+        struct Item {
+            float distance;  ///< at least
+            std::uint32_t item;
+        };
+        std::array<Item, most> items;  ///< nearest first
+        std::size_t count = 0;
+    };
+    /// The items whose boxes are nearer than `radius`, at most so many.
+    void list_near(const Vec3& p, double radius, Near& near) const;
+    /// Whether `best`, at which a search would start, is what it would find, by what is known of the items
+    /// near; false when that does not tell.
+    bool is_found(const Vec3& p, const Best& best, const Near& near) const;
 
   private:
     /// Boxes side by side.

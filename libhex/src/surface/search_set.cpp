@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <tuple>
 #include <type_traits>
 #include <utility>
@@ -137,7 +138,8 @@ ItemSearch<Corners>::~ItemSearch() = default;
 
 template <std::size_t Corners>
 typename ItemSearch<Corners>::Answer ItemSearch<Corners>::closest(const Vec3& p,
-                                                                  std::optional<std::uint32_t> hint) const {
+                                                                  std::optional<std::uint32_t> hint,
+                                                                  Memory* memory) const {
     // From neighbour to neighbour while that leads closer; what is found bounds the search in the tree.
     constexpr int most_steps = 32;
     constexpr std::uint32_t none = BoxTree<Corners>::none;
@@ -171,8 +173,31 @@ typename ItemSearch<Corners>::Answer ItemSearch<Corners>::closest(const Vec3& p,
         if (best.item == from) break;
         before = from;
     }
+    if (memory != nullptr && tree_->boxes->is_found(p, best, memory->near_)) {
+        ++memory->hits_;
+        return tree_->answer(best);
+    }
     tree_->boxes->search(p, best);
+    if (memory != nullptr) remember(p, best, *memory);
     return tree_->answer(best);
+}
+
+template <std::size_t Corners>
+void ItemSearch<Corners>::remember(const Vec3& p, const typename BoxTree<Corners>::Best& best,
+                                   Memory& memory) const {
+    if (memory.rest_ > 0) {
+        --memory.rest_;
+        return;
+    }
+    // Rarer where it is of no use.
+    constexpr int most_rest = 15;
+    memory.rest_ = memory.last_rest_ = memory.hits_ > 0 ? 0 : std::min(2 * memory.last_rest_ + 1, most_rest);
+    memory.hits_ = 0;
+    const Item& item = tree_->boxes->items()[best.item];
+    double length = 0.0;
+    for (std::size_t i = 0; i < Corners; ++i)
+        length = std::max(length, (item[(i + 1) % Corners] - item[i]).norm());
+    tree_->boxes->list_near(p, std::sqrt(best.squared) + length, memory.near_);
 }
 
 template <std::size_t Corners>
