@@ -31,6 +31,16 @@ class Run(CommandTest):
         self.assertGreater(report['min_scaled_jacobian'], 0.3)
         self.assertEqual(list(report['seconds']), ['segment', 'polycube', 'map', 'improve', 'spline', 'total'])
 
+    def test_nothing_is_written_but_into_the_output_folder(self):
+        for name in ('temporary', 'home'):
+            (self.folder / name).mkdir()
+        everywhere = {name: str(self.folder / 'temporary') for name in ('TMPDIR', 'TMP', 'TEMP', 'TEMPDIR')}
+        self.chain('-o', 'out', HOME=str(self.folder / 'home'), **everywhere)
+        self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ['home', 'out', 'temporary'])
+        for name in ('temporary', 'home'):
+            self.assertEqual(list((self.folder / name).iterdir()), [])
+        self.assertEqual(sorted(path.name for path in (self.folder / 'out').iterdir()), FILES)
+
     def test_the_same_bytes_for_any_number_of_threads(self):
         for threads in (1, 2):
             self.chain('-o', threads, '--threads', threads)
@@ -115,7 +125,10 @@ class Run(CommandTest):
     def test_voids_and_several_components_by_both_routes(self):
         shell = self.boxes('shell.obj', ((0, 0, 0), (3, 3, 3)), ((2, 2, 2), (1, 1, 1)))
         pair = self.boxes('pair.obj', ((0, 0, 0), (1, 1, 1)), ((2, 0.5, 0), (3, 2, 0.8)))
-        for surface, volume in ((shell, 26.0), (pair, 2.2)):
+        # The same shell with a void that is not turned inwards, and two bodies through each other.
+        unturned = self.boxes('unturned.obj', ((0, 0, 0), (3, 3, 3)), ((1, 1, 1), (2, 2, 2)))
+        crossing = self.boxes('crossing.obj', ((0, 0, 0), (1, 1, 1)), ((0.5, 0.4, 0.3), (2, 1.4, 1.3)))
+        for surface, volume in ((shell, 26.0), (pair, 2.2), (unturned, 26.0), (crossing, 2.5)):
             for route in ('labelling', 'voxel'):
                 with self.subTest(surface=surface.name, route=route):
                     report = self.bare(surface, 'out', '--route', route, '--target-hexes', 1000)
