@@ -90,6 +90,11 @@ class ProgressBar {
 
 }  // namespace
 
+bool may_tell_of_interruption() {
+    static std::atomic<bool> told = false;
+    return !told.exchange(true);
+}
+
 void take_time_after_interrupt() {
     finishing_takes_time() = true;
 }
@@ -114,7 +119,9 @@ void watch_interrupts(const std::string& name) {
             sigtimedwait(&signals, nullptr, &patience);
         }
         hex::io::abandon_output_files();
-        std::fprintf(stderr, "hexspline%s%s: error: interrupted\n", name.empty() ? "" : " ", name.c_str());
+        if (may_tell_of_interruption())
+            std::fprintf(stderr, "hexspline%s%s: error: interrupted\n", name.empty() ? "" : " ",
+                         name.c_str());
         _exit(hex::exit_code(hex::ErrorKind::cancelled));
     }).detach();
     signal(SIGPIPE, SIG_IGN);

@@ -21,6 +21,8 @@ struct ConsoleOptions {
 /// second one, is ended, without unfinished files. Call once, before any thread is started. \param name put
 /// in front of the message
 void watch_interrupts(const std::string& name);
+/// Whether nobody has told of the interruption yet; true for the first who asks, who then tells.
+bool may_tell_of_interruption();
 /// From now on one Ctrl-C is a request to finish, which may take a while.
 void take_time_after_interrupt();
 

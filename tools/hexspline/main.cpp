@@ -54,6 +54,8 @@ int dispatch(const std::vector<std::string>& arguments) {
         try {
             return run_command(command, {arguments.begin() + 1, arguments.end()});
         } catch (const hex::Error& error) {
+            if (error.kind() == hex::ErrorKind::cancelled && !cli::may_tell_of_interruption())
+                return hex::exit_code(error.kind());
             return report(name, error.what(), hex::exit_code(error.kind()));
         } catch (const std::bad_alloc&) {
             return report(name, "out of memory", hex::exit_code(hex::ErrorKind::output));
