@@ -233,9 +233,11 @@ TEST(Map, EdgeLengthCutsEverySheetByItsOwnLength) {
 }
 
 TEST(Map, MemoryOfEarlierCallsChangesNothing) {
-    const Case c = bent(test::grid(2, 1, 1));
+    Case c = bent(test::grid(2, 1, 1));
     std::shared_ptr<MapMemory> memory;
-    for (const std::size_t target : {20U, 500U, 20U}) {
+    for (const std::size_t target : {20U, 500U, 20U, 80U}) {
+        // The last surface and blocks are others.
+        if (target == 80U) c = bent(test::grid(1, 2, 1));
         const MapResult plain = map(c.surface, c.blocks, {.target_hexes = target});
         const MapResult again = map(c.surface, c.blocks, {.target_hexes = target, .memory = &memory});
         EXPECT_TRUE(memory != nullptr);

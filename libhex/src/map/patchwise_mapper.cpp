@@ -13,6 +13,7 @@
 #include <hex/map/map.h>
 #include <hex/map/patch_map.h>
 #include <hex/map/transfinite.h>
+#include <hex/surface/polygon_soup.h>
 
 #include <fmt/format.h>
 
@@ -213,11 +214,28 @@ std::vector<double> lengths_of_edges(const TriangleMesh& surface, const HexMesh&
 /// What does not depend on the size of the elements.
 struct Prepared final : MapMemory {
     Prepared(const TriangleMesh& surface, const HexMesh& blocks, double snap_warning)
-        : layout(find_patches(surface)),
+        : soup(to_soup(surface)),
+          positions(blocks.positions().begin(), blocks.positions().end()),
+          cells(blocks.cell_array().begin(), blocks.cell_array().end()),
+          snap(snap_warning),
+          layout(find_patches(surface)),
           quads(boundary_quads(blocks)),
           edges(edge_table(blocks)),
           match(match_blocks(surface, layout, blocks, quads, edges, snap_warning)),
           lengths(lengths_of_edges(surface, blocks, edges, match)) {}
+
+    bool is_of(const TriangleMesh& surface, const HexMesh& blocks, double snap_warning) const {
+        const PolygonSoup other = to_soup(surface);
+        return soup.points == other.points && soup.corners == other.corners && soup.parts == other.parts &&
+               std::ranges::equal(positions, blocks.positions()) &&
+               std::ranges::equal(cells, blocks.cell_array()) && snap == snap_warning;
+    }
+
+    // What it was made of.
+    PolygonSoup soup;
+    std::vector<Vec3> positions;
+    std::vector<HexCell> cells;
+    double snap;
 
     PatchLayout layout;
     BoundaryQuads quads;
@@ -238,7 +256,9 @@ class PatchwiseMapper : public Mapper {
     static std::shared_ptr<Prepared> prepare(const TriangleMesh& surface, const HexMesh& blocks,
                                              const MapOptions& options) {
         if (options.memory != nullptr)
-            if (auto known = std::dynamic_pointer_cast<Prepared>(*options.memory)) return known;
+            if (auto known = std::dynamic_pointer_cast<Prepared>(*options.memory);
+                known && known->is_of(surface, blocks, options.snap_warning))
+                return known;
         auto made = std::make_shared<Prepared>(surface, blocks, options.snap_warning);
         if (options.memory != nullptr) *options.memory = made;
         return made;

@@ -1,5 +1,8 @@
 /// \file box_tree.h
-/// A binary tree of boxes around triangles or segments, laid out for searches that start near the answer.
+/// A binary tree of boxes around triangles or segments, laid out for searches that start near the answer: a
+/// second layout of the tree that CGAL builds (search_set.h), with the same answers. Improvement asks for
+/// millions of closest points, each near the one before; CGAL's own traversal, which takes no account of
+/// that, made them about a third of its time.
 #pragma once
 
 #include "surface/nearest_point.h"

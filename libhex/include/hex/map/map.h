@@ -50,7 +50,7 @@ struct MapOptions {
     /// warned about.
     double snap_warning = 1e-3;
     /// Where calls that differ only in the size of the elements leave what they have in common; starts as
-    /// null. The result is the same with and without.
+    /// null. The result is the same with and without: what another surface or other blocks left is not used.
     std::shared_ptr<MapMemory>* memory = nullptr;
 };
 
