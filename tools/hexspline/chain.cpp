@@ -233,12 +233,10 @@ void Chain::polycube_of_labels() {
         if (error.kind() != hex::ErrorKind::no_result) throw;
         throw RouteClosed{error.what()};
     }
-    Json structure = {{"bodies", made.report.bodies},
-                      {"turned_shells", made.report.turned_shells},
-                      {"planes", made.report.planes},
-                      {"cells", made.report.cells},
-                      {"unit", made.report.unit},
-                      {"min_scaled_jacobian", made.report.min_scaled_jacobian}};
+    Json structure = {
+        {"bodies", made.report.bodies}, {"turned_shells", made.report.turned_shells},
+        {"planes", made.report.planes}, {"cells", made.report.cells},
+        {"unit", made.report.unit},     {"min_scaled_jacobian", made.report.min_scaled_jacobian}};
     report_["block_structure"] = structure;
     if (const std::string wrong = first_error(made.report.violations); !wrong.empty())
         throw RouteClosed{wrong};
