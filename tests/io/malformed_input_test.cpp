@@ -247,6 +247,10 @@ const std::vector<Malformed> cases = {
      ErrorKind::unsupported},
     {"ply_type", ".ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty quadruple x\n", ":4",
      "'quadruple'"},
+    {"ply_faces_twice", ".ply",
+     ply + "element face 1\nproperty list uchar int vertex_indices\n" + ply_faces +
+         "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n3 0 2 1\n",
+     ":15", "faces a second time"},
     {"ply_no_xyz", ".ply", "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nend_header\n0\n", ":5",
      "no x, y and z"},
     {"ply_index", ".ply", ply + ply_faces + "0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n", ":13", "point index 3"},

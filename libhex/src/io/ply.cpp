@@ -231,6 +231,7 @@ class PlyReader {
 
     void faces(const Element& element) {
         check_count(element);
+        if (data_.surface.size() > 0) fail("faces a second time");
         const bool has_corners =
             std::any_of(element.properties.begin(), element.properties.end(), is_corner_list);
         if (element.count > 0 && !has_corners) fail("the faces have no vertex_indices");
