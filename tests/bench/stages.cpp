@@ -29,14 +29,15 @@ struct GridArrays {
     std::vector<hex::HexCell> cells;
 };
 
-/// n x n x n cubes, cells and vertices in random order: what a mesh from elsewhere may look like.
-GridArrays shuffled_grid(int n) {
+/// n x n x n cubes. In random order, cells and vertices, they are what a mesh from elsewhere may look like.
+enum class Order { natural, random };
+GridArrays make_grid(int n, Order order) {
     GridArrays grid;
     const auto m = static_cast<std::size_t>(n) + 1;
     std::mt19937 random(1);
     std::vector<std::size_t> number(m * m * m);
     std::iota(number.begin(), number.end(), std::size_t{0});
-    std::shuffle(number.begin(), number.end(), random);
+    if (order == Order::random) std::shuffle(number.begin(), number.end(), random);
     grid.points.resize(number.size());
     grid.cells.reserve((m - 1) * (m - 1) * (m - 1));
     const auto at = [&](std::size_t i, std::size_t j, std::size_t k) { return number[i + m * (j + m * k)]; };
@@ -55,13 +56,17 @@ GridArrays shuffled_grid(int n) {
                 }
                 grid.cells.push_back(cell);
             }
-    std::shuffle(grid.cells.begin(), grid.cells.end(), random);
+    if (order == Order::random) std::shuffle(grid.cells.begin(), grid.cells.end(), random);
     return grid;
 }
 
-hex::HexMesh shuffled_grid_mesh(int n) {
-    GridArrays grid = shuffled_grid(n);
+hex::HexMesh grid_mesh(int n, Order order) {
+    GridArrays grid = make_grid(n, order);
     return {std::move(grid.points), std::move(grid.cells)};
+}
+
+hex::HexMesh shuffled_grid_mesh(int n) {
+    return grid_mesh(n, Order::random);
 }
 
 std::filesystem::path part_file(const std::string& part, const std::string& ending) {
@@ -96,7 +101,7 @@ Stage structure_stage(const std::string& what, int threads, int n,
 void add_structures(std::vector<Stage>& all, const hex::Context& context, int n) {
     Stage build{"HexMesh", "shuffled grid " + std::to_string(n) + "^3", [=] {
                     return hex::with_threads(context, [&] {
-                        GridArrays grid = shuffled_grid(n);
+                        GridArrays grid = make_grid(n, Order::random);
                         const std::size_t count = grid.cells.size();
                         return Work{count, seconds_of([&] {
                                         const hex::HexMesh mesh(std::move(grid.points),
@@ -113,8 +118,15 @@ void add_structures(std::vector<Stage>& all, const hex::Context& context, int n)
                                   [](const hex::HexMesh& mesh) { hex::edge_table(mesh); }));
     all.push_back(structure_stage("boundary_quads", context.threads, n,
                                   [](const hex::HexMesh& mesh) { hex::boundary_quads(mesh); }));
-    all.push_back(structure_stage("quality", context.threads, n,
-                                  [context](const hex::HexMesh& mesh) { hex::summarize(mesh, context); }));
+    for (const Order order : {Order::natural, Order::random}) {
+        const std::string name = order == Order::natural ? "grid " : "shuffled grid ";
+        all.push_back({"quality", name + std::to_string(n) + "^3", [=] {
+                           const hex::HexMesh mesh = grid_mesh(n, order);
+                           std::vector<double> values;
+                           return Work{mesh.cell_count(),
+                                       seconds_of([&] { values = hex::scaled_jacobians(mesh, context); })};
+                       }});
+    }
 }
 
 void add_io(std::vector<Stage>& all, int n) {

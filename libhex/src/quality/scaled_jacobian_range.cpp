@@ -7,9 +7,15 @@
 namespace hex::quality {
 namespace {
 
+/// How many cells before their turn the corners are fetched: far enough to hide how long memory takes where
+/// the vertices are in no order. Only the time depends on it: twice as fast there, the same where neighbours
+/// have neighbouring numbers.
+constexpr std::size_t ahead = 16;
+
 [[gnu::always_inline]] inline void fill_range(const HexMesh& mesh, std::size_t first, std::size_t last,
                                               std::span<double> values) {
     for (std::size_t start = first; start < last; start += wide_count) {
+        fetch_corners(mesh, std::min(start + ahead, last), std::min(start + ahead + wide_count, last));
         const std::size_t count = std::min(wide_count, last - start);
         const Wide result = scaled_jacobian<Wide>(gather_corners(mesh, start, count));
         for (std::size_t i = 0; i < count; ++i) values[start + i] = result.n[i];

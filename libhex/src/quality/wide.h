@@ -74,4 +74,13 @@ inline constexpr std::size_t wide_count = 4;
     return corners;
 }
 
+/// Begins to fetch the corners of the cells first .. last - 1, so that the processor need not wait for them
+/// when they are gathered.
+[[gnu::always_inline]] inline void fetch_corners(const HexMesh& mesh, std::size_t first, std::size_t last) {
+    const Vec3* const points = mesh.positions().data();
+    const HexCell* const cells = mesh.cell_array().data();
+    for (std::size_t cell = first; cell < last; ++cell)
+        for (const VertexId v : cells[cell]) __builtin_prefetch(points + v.index());
+}
+
 }  // namespace hex::quality
