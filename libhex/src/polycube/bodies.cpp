@@ -28,16 +28,16 @@ std::size_t index(int i) {
     return static_cast<std::size_t>(i);
 }
 
+Kernel::Triangle_3 to_cgal(const std::array<Vec3, 3>& p) {
+    const auto point = [](const Vec3& x) { return Kernel::Point_3(x.x(), x.y(), x.z()); };
+    return {point(p[0]), point(p[1]), point(p[2])};
+}
+
 /// A shell with a search tree that is only made when it is asked for.
 class Shell {
   public:
     void add(const std::array<Vec3, 3>& p) {
-        std::array<Kernel::Point_3, 3> t;
-        for (std::size_t i = 0; i < 3; ++i) {
-            t[i] = Kernel::Point_3(p[i].x(), p[i].y(), p[i].z());
-            box_.add(p[i]);
-        }
-        triangles_.emplace_back(t[0], t[1], t[2]);
+        for (const Vec3& x : p) box_.add(x);
         corners_.push_back(p);
         const Vec3& origin = corners_.front()[0];  // near, so that no digits are lost
         volume_ += (p[0] - origin).dot((p[1] - origin).cross(p[2] - origin)) / 6.0;
@@ -46,10 +46,10 @@ class Shell {
     bool outwards() const { return volume_ >= 0.0; }
 
     bool meets(Shell& other) {
-        Shell& small = triangles_.size() < other.triangles_.size() ? *this : other;
-        Tree& large = (&small == this ? other : *this).tree();
-        return std::any_of(small.triangles_.begin(), small.triangles_.end(),
-                           [&](const auto& t) { return large.do_intersect(t); });
+        const Shell& small = corners_.size() < other.corners_.size() ? *this : other;
+        const Tree& large = (&small == this ? other : *this).tree();
+        return std::any_of(small.corners_.begin(), small.corners_.end(),
+                           [&](const auto& t) { return large.do_intersect(to_cgal(t)); });
     }
     /// Whether a shell that does not meet this one is inside: one of its points sees this one an odd number
     /// of times along +x.
@@ -66,15 +66,16 @@ class Shell {
   private:
     Tree& tree() {
         if (!tree_) {
+            for (const auto& t : corners_) triangles_.push_back(to_cgal(t));
             tree_ = std::make_unique<Tree>(triangles_.cbegin(), triangles_.cend());
             tree_->build();
         }
         return *tree_;
     }
-    Triangles triangles_;
     std::vector<std::array<Vec3, 3>> corners_;
     double volume_ = 0.0;
     BoundingBox box_;
+    Triangles triangles_;  ///< of the tree
     std::unique_ptr<Tree> tree_;
 };
 
@@ -179,42 +180,20 @@ Body single(const TriangleMesh& surface) {
 
 }  // namespace
 
-std::vector<int> components_of(const TriangleMesh& surface, int& count) {
-    std::vector<int> component(surface.n_faces(), -1);
-    std::vector<TriangleMesh::FaceHandle> stack;
-    count = 0;
-    for (const auto start : surface.faces()) {
-        if (component[index(start)] >= 0) continue;
-        component[index(start)] = count;
-        stack.push_back(start);
-        while (!stack.empty()) {
-            const auto f = stack.back();
-            stack.pop_back();
-            for (const auto g : surface.ff_range(f)) {
-                if (component[index(g)] >= 0) continue;
-                component[index(g)] = count;
-                stack.push_back(g);
-            }
-        }
-        ++count;
-    }
-    return component;
-}
-
 std::vector<Body> bodies_of(const TriangleMesh& surface) {
-    int count = 0;
-    const std::vector<int> component = components_of(surface, count);
+    std::uint32_t count = 0;
+    const std::vector<std::uint32_t> component = components_of(surface, count);
     std::vector<Body> bodies;
     if (count < 2) {
         bodies.push_back(single(surface));
         return bodies;
     }
-    std::vector<Shell> shells(index(count));
+    std::vector<Shell> shells(count);
     for (const auto f : surface.faces()) {
         std::array<Vec3, 3> p;
         std::size_t i = 0;
         for (const auto v : surface.fv_range(f)) p[i++] = to_eigen(surface.point(v));
-        shells[index(component[index(f)])].add(p);
+        shells[component[index(f)]].add(p);
     }
     const Nesting nesting = nest(shells);
     const auto is_turned = [&](std::size_t s) { return shells[s].outwards() == nesting.is_void[s]; };
@@ -222,7 +201,7 @@ std::vector<Body> bodies_of(const TriangleMesh& surface) {
     std::vector<std::vector<int>> triangles(index(nesting.bodies));
     std::vector<std::vector<bool>> turned(triangles.size());
     for (const auto f : surface.faces()) {
-        const std::size_t s = index(component[index(f)]);
+        const std::size_t s = component[index(f)];
         triangles[index(nesting.body[s])].push_back(f.idx());
         turned[index(nesting.body[s])].push_back(is_turned(s));
     }

@@ -8,9 +8,6 @@
 
 namespace hex {
 
-/// The number of the connected component of each triangle, in the order of their first triangles.
-std::vector<int> components_of(const TriangleMesh& surface, int& count);
-
 struct Body {
     /// Outer shell oriented outwards, voids inwards, however they were.
     TriangleMesh surface;

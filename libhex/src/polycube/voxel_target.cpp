@@ -1,7 +1,5 @@
 #include "polycube/voxel_target.h"
 
-#include "polycube/bodies.h"
-
 #include <hex/surface/polygon_soup.h>
 
 #include <CGAL/AABB_traits.h>
@@ -42,17 +40,17 @@ struct Target::Search {
 };
 
 Target::Target(const TriangleMesh& surface) {
-    int count = 0;
+    std::uint32_t count = 0;
     component_ = components_of(surface, count);
-    components_.resize(static_cast<std::size_t>(count));
+    components_.resize(count);
     const auto own = [&](TriangleMesh::FaceHandle f) -> Component& {
-        return components_[static_cast<std::size_t>(component_[index(f)])];
+        return components_[component_[index(f)]];
     };
     std::vector<int> at_vertex(surface.n_vertices(), -1);
     for (const auto f : surface.faces()) {
         own(f).euler += 1;
         for (const auto v : surface.fv_range(f)) {
-            at_vertex[static_cast<std::size_t>(v.idx())] = component_[index(f)];
+            at_vertex[static_cast<std::size_t>(v.idx())] = static_cast<int>(component_[index(f)]);
             own(f).box.add(to_eigen(surface.point(v)));
         }
     }
@@ -77,8 +75,7 @@ Target::~Target() = default;
 std::size_t Target::nearest(const Vec3& p) const {
     if (!search_) return 0;
     const auto found = search_->tree.closest_point_and_primitive(Kernel::Point_3(p.x(), p.y(), p.z()));
-    return static_cast<std::size_t>(
-        component_[static_cast<std::size_t>(found.second - search_->triangles.cbegin())]);
+    return component_[static_cast<std::size_t>(found.second - search_->triangles.cbegin())];
 }
 
 Correspondence correspond(const CellSet& cells, const Pieces& pieces, const Target& target) {

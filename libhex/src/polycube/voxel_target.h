@@ -29,7 +29,7 @@ class Target {
         BoundingBox box;
     };
     struct Search;
-    std::vector<int> component_;  // of each triangle
+    std::vector<std::uint32_t> component_;  // of each triangle
     std::vector<Component> components_;
     std::unique_ptr<Search> search_;  // only where there is more than one component
 };

@@ -1,6 +1,8 @@
+#include <hex/base/components.h>
 #include <hex/surface/polygon_soup.h>
 
 #include <array>
+#include <cstdint>
 
 namespace hex {
 namespace {
@@ -12,29 +14,18 @@ std::array<Vec3, 3> corners(const TriangleMesh& mesh, TriangleMesh::FaceHandle f
     return points;
 }
 
-int count_components(const TriangleMesh& mesh) {
-    int count = 0;
-    std::vector<char> seen(mesh.n_faces(), 0);
-    std::vector<TriangleMesh::FaceHandle> open;
-    for (const auto start : mesh.faces()) {
-        if (seen[static_cast<std::size_t>(start.idx())]) continue;
-        ++count;
-        seen[static_cast<std::size_t>(start.idx())] = 1;
-        open.assign(1, start);
-        while (!open.empty()) {
-            const auto face = open.back();
-            open.pop_back();
-            for (const auto next : mesh.ff_range(face)) {
-                if (seen[static_cast<std::size_t>(next.idx())]) continue;
-                seen[static_cast<std::size_t>(next.idx())] = 1;
-                open.push_back(next);
-            }
-        }
-    }
-    return count;
-}
-
 }  // namespace
+
+std::vector<std::uint32_t> components_of(const TriangleMesh& mesh, std::uint32_t& count) {
+    Components components(mesh.n_faces());
+    for (const auto e : mesh.edges()) {
+        const auto one = mesh.face_handle(mesh.halfedge_handle(e, 0));
+        const auto other = mesh.face_handle(mesh.halfedge_handle(e, 1));
+        if (one.is_valid() && other.is_valid())
+            components.join(static_cast<std::size_t>(one.idx()), static_cast<std::size_t>(other.idx()));
+    }
+    return components.numbers(count);
+}
 
 double enclosed_volume(const TriangleMesh& mesh) {
     // About the box's centre, so that a small part far from the origin does not lose its digits.
@@ -82,7 +73,9 @@ Diagnostics inspect(const TriangleMesh& mesh) {
     if (enclosed_volume(mesh) < 0)
         report(Severity::warning, "inside-out", "the surface is oriented inwards (negative volume)",
                "surface", {});
-    if (const int components = count_components(mesh); components > 1)
+    std::uint32_t components = 0;
+    components_of(mesh, components);
+    if (components > 1)
         report(Severity::note, "components", "the surface has " + std::to_string(components) + " components",
                "surface", {});
     return diagnostics;

@@ -53,6 +53,10 @@ TriangleMesh make_triangle_mesh(const PolygonSoup& soup, const SurfaceRequiremen
 PolygonSoup to_soup(const TriangleMesh& mesh);
 PolygonSoup to_soup(const PolyMesh& mesh);
 
+/// The connected component of each triangle, through shared edges, numbered in the order of their first
+/// triangles; `count` becomes the number of them.
+std::vector<std::uint32_t> components_of(const TriangleMesh& mesh, std::uint32_t& count);
+
 /// Signed volume enclosed by a closed surface; positive when it is oriented outwards.
 double enclosed_volume(const TriangleMesh& mesh);
 
