@@ -2,6 +2,7 @@
 
 #include "polycube/block_placement.h"
 #include "polycube/chart_cutter.h"
+#include "polycube/patch_triangles.h"
 
 #include <hex/base/error.h>
 #include <hex/base/parallel.h>
@@ -10,11 +11,11 @@
 
 #include <algorithm>
 #include <array>
-#include <iterator>
 #include <limits>
 #include <map>
 #include <optional>
 #include <set>
+#include <utility>
 
 namespace hex {
 namespace {
@@ -47,15 +48,8 @@ class Slider {
           target_(target),
           quads_(boundary_quads(model.blocks)),
           cells_(vertex_cells(model.blocks)),
+          patches_(model.triangles, model.patch),
           marked_(model.blocks.cell_count(), 0) {
-        int patches = 0;
-        for (const int p : model.patch) patches = std::max(patches, p + 1);
-        triangles_of_.resize(at(patches));
-        for (std::size_t t = 0; t < model.triangles.size(); ++t)
-            triangles_of_[at(model.patch[t])].push_back(static_cast<int>(t));
-        vertices_of_.resize(triangles_of_.size());
-        rim_of_.resize(triangles_of_.size());
-        for (int p = 0; p < patches; ++p) list_vertices(p);
         find_sharp_vertices();
         name_quads();
         allow_bulges();
@@ -259,7 +253,7 @@ class Slider {
             const int p = patch_of_quad_[q.index()];
             if (p < 0) return {};
             if (std::find(patches.begin(), patches.end(), p) != patches.end() &&
-                !triangles_of_[at(p)].empty())
+                !patches_.triangles(p).empty())
                 return {};
             patches.push_back(p);
         }
@@ -271,7 +265,7 @@ class Slider {
         const int here = model_.vertex_of_node[v.index()];
         const std::vector<int> patches = patches_around(v);
         if (patches.empty()) return {};
-        const std::vector<int> candidates = inner_vertices(patches);
+        const std::vector<int> candidates = patches_.inner_vertices(patches);
         const double before = penalty(v);
         double reach = 0.0;
         for (const QuadId q : quads_.vertex_quads[v.index()]) {
@@ -300,9 +294,10 @@ class Slider {
     std::optional<Move> find_move(VertexId v, const std::vector<int>& places) const {
         Move move;
         move.v = v;
-        for (const int p : patches_around(v))
-            move.triangles.insert(move.triangles.end(), triangles_of_[at(p)].begin(),
-                                  triangles_of_[at(p)].end());
+        for (const int p : patches_around(v)) {
+            const std::vector<int>& triangles = patches_.triangles(p);
+            move.triangles.insert(move.triangles.end(), triangles.begin(), triangles.end());
+        }
         std::sort(move.triangles.begin(), move.triangles.end());
         // Those next to the best one mostly fail as it does.
         for (std::size_t tries = 0, i = 0; tries < most_tries && i < places.size(); ++tries, i += 1 + i) {
@@ -336,70 +331,10 @@ class Slider {
         for (std::size_t q = 0; q < quads_.size(); ++q) {
             double area = 0.0;
             if (patch_of_quad_[q] >= 0)
-                for (const int t : triangles_of_[at(patch_of_quad_[q])])
+                for (const int t : patches_.triangles(patch_of_quad_[q]))
                     area += area_of(model_.points, model_.triangles[at(t)]);
             allowed_bulge_.push_back(std::max(bulging, 1.05 * bulge_of(QuadId(q), area)));
         }
-    }
-
-    static void sort_once(std::vector<int>& numbers) {
-        std::sort(numbers.begin(), numbers.end());
-        numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
-    }
-
-    /// Runs of equal edges: all(edge, how often).
-    template <class Use>
-    static void for_each_edge(std::vector<std::array<int, 2>>& edges, const Use& use) {
-        std::sort(edges.begin(), edges.end());
-        for (std::size_t i = 0; i < edges.size();) {
-            std::size_t end = i;
-            while (end < edges.size() && edges[end] == edges[i]) ++end;
-            use(edges[i], end - i);
-            i = end;
-        }
-    }
-
-    /// The vertices of a patch, and its edges without those between two of its triangles.
-    void list_vertices(int patch) {
-        std::vector<std::array<int, 2>> edges;
-        std::vector<int>& vertices = vertices_of_[at(patch)];
-        vertices.clear();
-        for (const int t : triangles_of_[at(patch)]) {
-            const auto& c = model_.triangles[at(t)];
-            for (std::size_t k = 0; k < 3; ++k) {
-                const auto [a, b] = std::minmax(c[k], c[(k + 1) % 3]);
-                edges.push_back({a, b});
-                vertices.push_back(c[k]);
-            }
-        }
-        sort_once(vertices);
-        auto& rim = rim_of_[at(patch)];
-        rim.clear();
-        for_each_edge(edges, [&](const std::array<int, 2>& edge, std::size_t count) {
-            if (count != 2) rim.insert(rim.end(), count, edge);
-        });
-    }
-
-    /// Vertices of the patches that are not on the rim of all of them together, ascending.
-    std::vector<int> inner_vertices(const std::vector<int>& patches) const {
-        std::vector<int> vertices;
-        std::vector<std::array<int, 2>> edges;
-        for (const int p : patches) {
-            std::vector<int> both;
-            std::set_union(vertices.begin(), vertices.end(), vertices_of_[at(p)].begin(),
-                           vertices_of_[at(p)].end(), std::back_inserter(both));
-            vertices.swap(both);
-            edges.insert(edges.end(), rim_of_[at(p)].begin(), rim_of_[at(p)].end());
-        }
-        std::vector<int> rim;
-        for_each_edge(edges, [&](const std::array<int, 2>& edge, std::size_t count) {
-            if (count != 2) rim.insert(rim.end(), edge.begin(), edge.end());
-        });
-        sort_once(rim);
-        std::vector<int> inner;
-        std::set_difference(vertices.begin(), vertices.end(), rim.begin(), rim.end(),
-                            std::back_inserter(inner));
-        return inner;
     }
 
     /// Cuts the triangles of a move for its centre. Returns whether that is possible.
@@ -470,25 +405,23 @@ class Slider {
 
     void make(const Move& move) {
         const CutResult& cut = move.cut;
-        for (const int t : move.triangles) {
-            triangles_of_[at(model_.patch[at(t)])].clear();
-            model_.patch[at(t)] = -1;
-        }
+        for (const int t : move.triangles) model_.patch[at(t)] = -1;
         std::vector<int> global = move.global;
         for (std::size_t i = global.size(); i < cut.points.size(); ++i) {
             global.push_back(static_cast<int>(model_.points.size()));
             model_.points.push_back(cut.points[i]);
             sharp_.push_back(0);
         }
+        std::map<int, std::vector<int>> made;  // triangles by patch
         for (std::size_t t = 0; t < cut.triangles.size(); ++t) {
             std::array<int, 3> c{};
             for (std::size_t k = 0; k < 3; ++k) c[k] = global[at(cut.triangles[t][k])];
             const int patch = move.patch_of_part.at(cut.part[t]);
-            triangles_of_[at(patch)].push_back(static_cast<int>(model_.triangles.size()));
+            made[patch].push_back(static_cast<int>(model_.triangles.size()));
             model_.triangles.push_back(c);
             model_.patch.push_back(patch);
         }
-        for (const auto& [part, patch] : move.patch_of_part) list_vertices(patch);
+        for (auto& [patch, triangles] : made) patches_.replace(patch, std::move(triangles), model_.triangles);
         model_.vertex_of_node[move.v.index()] = move.centre;
         model_.blocks.set_position(move.v, model_.points[at(move.centre)]);
     }
@@ -497,11 +430,9 @@ class Slider {
     double target_;
     BoundaryQuads quads_;
     CompressedRows<CellId> cells_;
-    std::vector<char> marked_;                    ///< blocks
-    std::vector<std::vector<int>> triangles_of_;  ///< of each patch, ascending
-    std::vector<std::vector<int>> vertices_of_;   ///< of each patch, ascending
-    std::vector<std::vector<std::array<int, 2>>> rim_of_;
-    std::vector<char> sharp_;  ///< vertices on sharp edges
+    PatchTriangles patches_;
+    std::vector<char> marked_;  ///< blocks
+    std::vector<char> sharp_;   ///< vertices on sharp edges
     std::vector<int> patch_of_quad_;
     std::vector<double> allowed_bulge_;  ///< of each quad
     std::vector<Vec3> home_;             ///< where each block vertex was at first
