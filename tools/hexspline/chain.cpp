@@ -214,7 +214,6 @@ void Chain::polycube_of_patches() {
     for (const auto f : mesh.faces())
         mesh.data(f).part = result.polycube.layout.patch_of_triangle[static_cast<std::size_t>(f.idx())] + 1;
     patches_ = std::move(mesh);
-    map_memory_.reset();
     write_polycube(result.polycube);
     if (!line_.given("blocks")) return;
     blocks_ = load_hexahedra(line_, line_.get<std::string>("blocks"));
@@ -248,7 +247,6 @@ void Chain::polycube_of_labels() {
     report_["corners"] = quads.report.corners;
     patches_ = std::move(made.patches);
     blocks_ = std::move(made.blocks);
-    map_memory_.reset();
     blocks_made_ = true;
     write_polycube(quads.polycube);
     hex::io::write_hex_mesh(folder_ / "2-blocks.k", *blocks_);

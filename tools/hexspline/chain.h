@@ -143,7 +143,7 @@ class Chain {
     int attempt_ = 0;
     std::optional<hex::TriangleMesh> patches_;
     std::optional<hex::HexMesh> blocks_;
-    std::shared_ptr<hex::MapMemory> map_memory_;  ///< of patches_ and blocks_
+    std::shared_ptr<hex::MapMemory> map_memory_;  ///< of the patches and blocks mapped last
     std::optional<hex::HexMesh> mapped_;
     double mapped_target_ = 0.0;
     double mapped_apart_ = 0.0;

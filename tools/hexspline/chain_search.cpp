@@ -103,7 +103,6 @@ void Chain::take_voxel_route() {
     route_ = "voxel";
     patches_.reset();
     blocks_.reset();
-    map_memory_.reset();
     mapped_.reset();
     if (first_labels_) {
         segmentation_ = first_labels_;
@@ -262,7 +261,6 @@ void Chain::keep_best() {
         segmentation_ = best.segmentation;
         patches_ = best.patches;
         blocks_ = best.blocks;
-        map_memory_.reset();
         if (!tried_labels_.empty()) write_labels();
         if (patches_) write_polycube(hex::polycube(*patches_, {}, line_.context()).polycube);
         hex::io::write_hex_mesh(folder_ / "2-blocks.k", *blocks_);

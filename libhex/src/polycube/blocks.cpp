@@ -42,6 +42,7 @@ class Assembly {
     }
 
     void add(const Body& body, const BodyBlocks& made) {
+        const std::size_t first_patch = report_.patches;
         add_report(made.report);
         if (count_at_least(report_.violations, Severity::error) > 0) return;
         std::vector<int> vertices = body.vertices;
@@ -53,9 +54,8 @@ class Assembly {
             std::array<std::uint32_t, 3> triangle{};
             for (std::size_t k = 0; k < 3; ++k)
                 triangle[k] = static_cast<std::uint32_t>(vertices[at(made.model.triangles[t][k])]);
-            soup_.add_polygon(triangle, static_cast<int>(patches_) + made.model.patch[t] + 1);
+            soup_.add_polygon(triangle, static_cast<int>(first_patch) + made.model.patch[t] + 1);
         }
-        patches_ += made.report.patches;
         const std::size_t first = positions_.size();
         for (const VertexId v : made.model.blocks.vertices()) {
             positions_.push_back(made.model.blocks.position(v));
@@ -143,7 +143,6 @@ class Assembly {
 
     BlocksReport report_;
     PolygonSoup soup_;
-    std::size_t patches_ = 0;
     std::vector<Vec3> positions_;
     std::vector<HexCell> cells_;
     std::vector<int> vertex_of_node_;  ///< surface vertex of each block vertex, or -1

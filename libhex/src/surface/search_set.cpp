@@ -29,6 +29,7 @@ Kernel::Triangle_3 to_cgal(const SearchTriangle& t) {
 Kernel::Segment_3 to_cgal(const SearchSegment& s) {
     return {to_cgal(s[0]), to_cgal(s[1])};
 }
+
 /// Across each side of an item the other one with that side (the ends of a segment are its sides); the item
 /// itself where there is none, and one of them where there are several.
 template <std::size_t Corners>
@@ -104,6 +105,14 @@ struct ItemSearch<Corners>::Tree {
     Answer answer(const typename BoxTree<Corners>::Best& found) const {
         return {found.point, number[found.item]};
     }
+    /// The items as they are in the tree from left to right.
+    std::vector<Iterator> in_order() const {
+        std::vector<Iterator> order;
+        order.reserve(items.size());
+        Listing<CGAL::AABB_node<Traits>, Primitive> listing{order};
+        tree.traversal(Kernel::Point_3(), listing);
+        return order;
+    }
 };
 
 template <std::size_t Corners>
@@ -112,14 +121,10 @@ ItemSearch<Corners>::ItemSearch(const std::vector<Item>& items) : tree_(std::mak
     for (const Item& item : items) tree_->items.push_back(to_cgal(item));
     tree_->tree.insert(tree_->items.begin(), tree_->items.end());
     tree_->tree.build();
-    std::vector<typename Tree::Iterator> order;
-    order.reserve(items.size());
-    Listing<CGAL::AABB_node<typename Tree::Traits>, typename Tree::Primitive> listing{order};
-    tree_->tree.traversal(Kernel::Point_3(), listing);
     tree_->place.resize(items.size());
     std::vector<Item> ordered;
     ordered.reserve(items.size());
-    for (const auto& item : order) {
+    for (const auto& item : tree_->in_order()) {
         const auto number = static_cast<std::uint32_t>(item - tree_->items.begin());
         tree_->place[number] = static_cast<std::uint32_t>(ordered.size());
         tree_->number.push_back(number);
