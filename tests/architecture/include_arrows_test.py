@@ -12,7 +12,7 @@ ROOT = Path(sys.argv.pop(1))
 HEAVY = re.compile(r'<(CGAL/|OpenMesh/Tools/)')
 
 FLOORS = [{'base'}, {'surface', 'volume'}, {'io', 'quality', 'feature'}, {'segment', 'polycube', 'map', 'improve'},
-          {'spline'}, {'tools', 'plugins'}]
+          {'hexahedralize'}, {'spline'}, {'tools', 'plugins'}]
 FLOOR = {module: number for number, floor in enumerate(FLOORS) for module in floor}
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"][^>"]+[>"])')
 

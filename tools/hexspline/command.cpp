@@ -177,13 +177,7 @@ void CommandLine::warn(const std::string& message) const {
 }
 
 void CommandLine::log(const hex::Diagnostics& diagnostics, const std::string& place) const {
-    for (const auto& d : diagnostics) {
-        const std::string text = place.empty() ? d.message : place + ": " + d.message;
-        if (d.severity == hex::Severity::note)
-            info(text);
-        else
-            warn(text);
-    }
+    hex::log_findings(context(), diagnostics, place);
 }
 
 void CommandLine::write_report(const Json& report) const {

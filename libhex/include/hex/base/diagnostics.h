@@ -2,6 +2,8 @@
 /// Findings that a reader or a stage reports without stopping.
 #pragma once
 
+#include <hex/base/context.h>
+
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -24,6 +26,10 @@ using Diagnostics = std::vector<Diagnostic>;
 
 /// Number of findings at least as severe as `severity`.
 std::size_t count_at_least(const Diagnostics& diagnostics, Severity severity);
+
+/// Gives each finding to `context.on_log`: notes as info, the others as warnings. `place` (a file name) is
+/// put in front when given.
+void log_findings(const Context& context, const Diagnostics& diagnostics, const std::string& place = {});
 
 /// "3, 17, 22, ... (41 in all)": at most `most` ids, for messages.
 std::string list_ids(const std::vector<std::int64_t>& ids, std::size_t most = 8);
