@@ -45,7 +45,7 @@ foreach(plugin ${plugins})
 endforeach()
 # Moved to another place, the installed tree still works: nothing in it points back to the build.
 file(RENAME "${prefix}" "${WORK_DIR}/moved")
-expect("12 vertices, 2 hexahedra, 1 interior face\n"
+expect("12 vertices, 2 hexahedra, 1 interior face\n8 hexahedra, 0 inverted\n"
        ${CMAKE_COMMAND} -E env "LD_LIBRARY_PATH=${WORK_DIR}/moved/lib" "${WORK_DIR}/build/consumer")
 expect("hexspline ${VERSION}\n" "${WORK_DIR}/moved/bin/hexspline" --version)
 
