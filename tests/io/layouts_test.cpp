@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <ctime>
 
 namespace hex::io {
 namespace {
@@ -459,6 +460,105 @@ TEST(Vtu, AsciiAndInlineBase64) {
         surface_of(".vtu",
                    vtu("<DataArray type=\"UInt8\" Name=\"types\" format=\"binary\">AgAAAA==BQU=</DataArray>"))
             .soup);
+}
+
+// --- Abaqus ---
+
+/// `count` triangles with the ids first, first + step, ...
+std::string abaqus_triangles(int count, int first = 1, int step = 1) {
+    std::string text = "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n*ELEMENT, TYPE=S3\n";
+    for (int i = 0; i < count; ++i) text += std::to_string(first + i * step) + ", 1, 2, 3\n";
+    return text;
+}
+
+std::vector<std::string> names_of_elements(const SurfaceFile& file) {
+    std::vector<std::string> names;
+    for (const int part : file.soup.parts) {
+        const auto name = file.part_names.find(part);
+        names.push_back(name == file.part_names.end() ? "" : name->second);
+    }
+    return names;
+}
+
+std::vector<std::string> codes_of(const Diagnostics& diagnostics) {
+    std::vector<std::string> codes;
+    for (const Diagnostic& finding : diagnostics) codes.push_back(finding.code);
+    return codes;
+}
+
+using Texts = std::vector<std::string>;
+
+TEST(Abaqus, AnElementBelongsToTheFirstSetThatHasIt) {
+    const auto file = surface_of(".inp", abaqus_triangles(6) +
+                                             "*ELSET, ELSET=even, GENERATE\n2, 6, 2\n*ELSET, ELSET=low, "
+                                             "GENERATE\n1, 3\n*ELSET, ELSET=Even\n5\n");
+    EXPECT_EQ(names_of_elements(file), (Texts{"low", "even", "low", "even", "even", "even"}));
+    EXPECT_EQ(codes_of(file.diagnostics), (Texts{"sets-overlap"}));
+    // Ids with gaps, ranges that start and end in them, one set in pieces that meet.
+    const auto gaps = surface_of(".inp", abaqus_triangles(5, 10, 10) +
+                                             "*ELSET, ELSET=a\n10\n*ELSET, ELSET=b, GENERATE\n20, 40, "
+                                             "20\n*ELSET, ELSET=b\n40\n*ELSET, ELSET=c\n50, 30\n");
+    EXPECT_EQ(names_of_elements(gaps), (Texts{"a", "b", "c", "b", "c"}));
+    EXPECT_TRUE(gaps.diagnostics.empty());
+}
+
+TEST(Abaqus, ASetOfAllElementsIsForThoseInNoOther) {
+    const std::string all = "*ELSET, ELSET=all, GENERATE\n1, 4\n";
+    EXPECT_EQ(names_of_elements(surface_of(".inp", abaqus_triangles(4) + all)),
+              (Texts{"all", "all", "all", "all"}));
+    const auto some = surface_of(".inp", abaqus_triangles(4) + all + "*ELSET, ELSET=two\n2\n");
+    EXPECT_EQ(names_of_elements(some), (Texts{"all", "two", "all", "all"}));
+    EXPECT_TRUE(some.diagnostics.empty());
+    // Two progressions hold all, too.
+    const auto none =
+        surface_of(".inp", abaqus_triangles(4) + "*ELSET, ELSET=all, GENERATE\n1, 3, 2\n2, 4, 2\n" +
+                               "*ELSET, ELSET=a\n1, 2\n*ELSET, ELSET=b\n3, 4\n");
+    EXPECT_EQ(names_of_elements(none), (Texts{"a", "a", "b", "b"}));
+    ASSERT_EQ(codes_of(none.diagnostics), (Texts{"sets-skipped"}));
+    EXPECT_NE(none.diagnostics[0].message.find("'all'"), std::string::npos);
+}
+
+TEST(Abaqus, SetsWithElementsThatDoNotExistAreWarnedOf) {
+    const auto message = [](const std::string& text) {
+        const auto diagnostics = surface_of(".inp", abaqus_triangles(5) + text).diagnostics;
+        return diagnostics.empty() ? std::string() : diagnostics[0].message;
+    };
+    EXPECT_NE(message("*ELSET, ELSET=a\n5, 3, 17\n").find("'a' names element 17"), std::string::npos);
+    EXPECT_NE(message("*ELSET, ELSET=a, GENERATE\n2, 4000000000\n").find("'a' names element 6"),
+              std::string::npos);
+    EXPECT_NE(message("*ELSET, ELSET=a, GENERATE\n3, 9000000000000000000, 2\n").find("element 7"),
+              std::string::npos);
+    // Elements that are skipped do exist.
+    const auto skipped = surface_of(".inp", abaqus_triangles(5) +
+                                                "*ELEMENT, TYPE=B31\n6, 1, 2\n8, 1, 3\n*ELSET, ELSET=a, "
+                                                "GENERATE\n2, 8, 2\n");
+    EXPECT_EQ(codes_of(skipped.diagnostics), (Texts{"elements-skipped"}));
+}
+
+TEST(Abaqus, NodeSetsAndSurfacesAreWarnedOfOnce) {
+    const auto file = surface_of(".inp", abaqus_triangles(1) +
+                                             "*NSET, NSET=a\n1, 2\n*NSET, NSET=b\n3\n*SURFACE, "
+                                             "NAME=top\nall, SPOS\n");
+    ASSERT_EQ(codes_of(file.diagnostics), (Texts{"sets-skipped", "sets-skipped"}));
+    EXPECT_NE(file.diagnostics[0].message.find("*NSET in line 7, 9"), std::string::npos);
+    EXPECT_NE(file.diagnostics[1].message.find("*SURFACE in line 11"), std::string::npos);
+}
+
+TEST(Abaqus, SetsThatOverlapManyTimesTakeLittleTime) {
+    constexpr int count = 20000;
+    std::string whole = abaqus_triangles(count), every_second = whole, far = whole;
+    for (int i = 1; i <= count; ++i) {
+        const std::string head = "*ELSET, ELSET=a" + std::to_string(i) + ", GENERATE\n1, ";
+        whole += head + std::to_string(count) + "\n";
+        every_second += head + std::to_string(count - i % 9) + ", 2\n";
+        far += head + "4000000000\n";
+    }
+    for (const std::string& text : {whole, every_second, far}) {
+        const auto start = std::clock();
+        surface_of(".inp", text);
+        // Processor time. Going through the elements of each set takes 4 * 10^8 steps.
+        EXPECT_LT(static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC, 1.5);
+    }
 }
 
 }  // namespace

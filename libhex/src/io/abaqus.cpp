@@ -1,4 +1,5 @@
 // Abaqus input files (.inp): nodes, shells and eight-node solids; element sets are parts.
+#include "io/element_sets.h"
 #include "io/formats.h"
 #include "io/id_map.h"
 #include "io/part_numbers.h"
@@ -9,7 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <unordered_map>
+#include <set>
 
 namespace hex::io {
 namespace {
@@ -46,7 +47,6 @@ struct Element {
     std::array<long long, 8> nodes{};
     std::size_t corners = 0;
     std::size_t position = 0;  // in the file
-    int set = -1;
 };
 
 class AbaqusReader {
@@ -74,7 +74,7 @@ class AbaqusReader {
     }
 
   private:
-    enum class Block { none, node, element, element_set, skipped };
+    enum class Block { none, node, element, skipped_element, element_set, skipped };
 
     [[noreturn]] void fail(const std::string& what, ErrorKind kind = ErrorKind::bad_input) const {
         throw Error(kind, what, file_.line_place(position_));
@@ -153,14 +153,17 @@ class AbaqusReader {
                         " are not supported: only three- and four-node shells and eight-node solids are read",
                     ErrorKind::unsupported);
             corners_ = *corners;
-            set_ = value("ELSET").empty() ? -1 : set_index(value("ELSET"));
-            if (corners_ > 0) block_ = Block::element;
+            set_ = value("ELSET").empty() ? -1 : sets_.index_of(value("ELSET"));
+            block_ = corners_ > 0 ? Block::element : Block::skipped_element;
             if (corners_ == 0) ++skipped_blocks_;
+            continued_ = false;
         } else if (word.name == "ELSET") {
             if (value("ELSET").empty()) fail("*ELSET needs ELSET=name");
             block_ = Block::element_set;
-            set_ = set_index(value("ELSET"));
+            set_ = sets_.index_of(value("ELSET"));
             generate_ = word.parameters.contains("GENERATE");
+        } else if (word.name == "NSET" || word.name == "SURFACE") {
+            skipped_keywords_[word.name].push_back(position_);
         } else if (word.name == "PART") {
             if (++parts_ > 1)
                 fail("a second *PART: assemblies of several parts are not supported", ErrorKind::unsupported);
@@ -168,17 +171,6 @@ class AbaqusReader {
             fail("a second *INSTANCE: assemblies of several instances are not supported",
                  ErrorKind::unsupported);
         }
-    }
-
-    int set_index(const std::string& name) {
-        // Abaqus does not tell capital letters from small ones.
-        const auto [found, added] =
-            set_of_name_.emplace(upper_case(name), static_cast<int>(set_names_.size()));
-        if (added) {
-            set_names_.push_back(name);
-            sets_.emplace_back();
-        }
-        return found->second;
     }
 
     void data(std::string_view line) {
@@ -189,6 +181,8 @@ class AbaqusReader {
                 return node(fields_of(line));
             case Block::element:
                 return element(fields_of(line));
+            case Block::skipped_element:
+                return skipped_element(line);
             case Block::element_set:
                 return element_set(fields_of(line));
             default:
@@ -230,28 +224,33 @@ class AbaqusReader {
         result.position = position_;
         std::copy(pending_.begin() + 1, pending_.end(), result.nodes.begin());
         element_ids_.add(pending_.front());
-        if (set_ >= 0)
-            sets_[static_cast<std::size_t>(set_)].push_back({pending_.front(), pending_.front(), 1});
+        if (set_ >= 0) sets_.add(set_, pending_.front(), pending_.front(), 1);
         elements_.push_back(result);
         pending_.clear();
     }
 
+    /// Sets may hold elements that are not kept.
+    void skipped_element(std::string_view line) {
+        const auto value = parse_integer(trimmed(line.substr(0, line.find(','))));
+        if (!continued_ && value && *value >= 1) skipped_ids_.push_back(*value);
+        continued_ = line.ends_with(',');
+    }
+
     void element_set(const std::vector<std::string_view>& fields) {
-        auto& set = sets_[static_cast<std::size_t>(set_)];
         if (generate_) {
             if (fields.size() < 2 || fields.size() > 3) fail("*ELSET, GENERATE needs first, last, step");
             const long long first = id(fields[0], "element id"), last = id(fields[1], "element id");
             const long long step = fields.size() > 2 ? id(fields[2], "the step") : 1;
             if (last < first) fail("the last element is smaller than the first");
-            set.push_back({first, last, step});
+            sets_.add(set_, first, last, step);
             return;
         }
         for (const std::string_view field : fields) {
             const auto value = parse_integer(field);
-            if (value)
-                set.push_back({id(field, "element id"), *value, 1});
-            else
+            if (!value)
                 nested_sets_ = true;
+            else
+                sets_.add(set_, id(field, "element id"), *value, 1);
         }
     }
 
@@ -265,85 +264,80 @@ class AbaqusReader {
     void finish() {
         check_ids(node_ids_, "node", [&](std::size_t i) { return node_positions_[i]; });
         check_ids(element_ids_, "element", [&](std::size_t i) { return elements_[i].position; });
-        assign_sets();
+        const std::vector<int> set_of_element = assign_sets();
         std::vector<std::string> used_names;
         std::vector<int> number_of_set(sets_.size(), -1);
-        for (const Element& element : elements_) {
-            if (element.set < 0 || number_of_set[static_cast<std::size_t>(element.set)] >= 0) continue;
-            number_of_set[static_cast<std::size_t>(element.set)] = static_cast<int>(used_names.size());
-            used_names.push_back(set_names_[static_cast<std::size_t>(element.set)]);
+        for (const int set : set_of_element) {
+            if (set < 0 || number_of_set[static_cast<std::size_t>(set)] >= 0) continue;
+            number_of_set[static_cast<std::size_t>(set)] = static_cast<int>(used_names.size());
+            used_names.push_back(sets_.name(set));
         }
         const std::vector<int> numbers = number_parts(used_names, data_.part_names);
         const int rest = number_of_rest(numbers);
         for (std::size_t e = 0; e < elements_.size(); ++e) {
-            const Element& element = elements_[e];
+            const int set = set_of_element[e];
             const int part =
-                element.set < 0
-                    ? rest
-                    : numbers[static_cast<std::size_t>(number_of_set[static_cast<std::size_t>(element.set)])];
-            add(element, e, part);
+                set < 0 ? rest
+                        : numbers[static_cast<std::size_t>(number_of_set[static_cast<std::size_t>(set)])];
+            add(elements_[e], e, part);
         }
         if (skipped_blocks_ > 0)
             data_.warn("elements-skipped",
                        std::to_string(skipped_blocks_) + " blocks of points, lines and springs are skipped");
         if (nested_sets_) data_.warn("sets-skipped", "sets inside of element sets are skipped");
+        for (const auto& [name, positions] : skipped_keywords_) {
+            const std::vector<std::int64_t> lines = lines_of(positions);
+            data_.warn("sets-skipped",
+                       std::string(name == "NSET" ? "node sets (*NSET in line "
+                                                  : "surfaces made of element faces (*SURFACE in line ") +
+                           list_ids(lines) + ") are skipped",
+                       "line", lines);
+        }
+    }
+
+    /// The lines of positions that ascend.
+    std::vector<std::int64_t> lines_of(const std::vector<std::size_t>& positions) const {
+        std::vector<std::int64_t> lines;
+        std::int64_t line = 1;
+        auto next = file_.bytes().begin();
+        for (const std::size_t position : positions) {
+            const auto end = file_.bytes().begin() + static_cast<std::ptrdiff_t>(position);
+            line += std::count(next, end, '\n');
+            next = end;
+            lines.push_back(line);
+        }
+        return lines;
     }
 
     /// The part of elements in no set: 1 when there are no sets at all.
     static int number_of_rest(const std::vector<int>& numbers) {
+        const std::set<int> taken(numbers.begin(), numbers.end());
         int rest = 1;
-        while (std::find(numbers.begin(), numbers.end(), rest) != numbers.end()) ++rest;
+        while (taken.contains(rest)) ++rest;
         return rest;
     }
 
-    /// An element belongs to the first set that has it. A set of everything says nothing, where there are
-    /// others.
-    void assign_sets() {
-        bool lost = false;
-        std::vector<std::vector<std::size_t>> members(sets_.size());
-        std::vector<int> count_of(elements_.size(), 0);
-        for (std::size_t s = 0; s < sets_.size(); ++s) {
-            for (const auto& range : sets_[s]) collect(range, members[s]);
-            std::sort(members[s].begin(), members[s].end());
-            members[s].erase(std::unique(members[s].begin(), members[s].end()), members[s].end());
-        }
-        const auto is_all = [&](std::size_t s) { return members[s].size() == elements_.size(); };
-        std::size_t partial = 0;
-        for (std::size_t s = 0; s < sets_.size(); ++s) partial += !is_all(s) && !members[s].empty() ? 1 : 0;
-        for (std::size_t s = 0; s < sets_.size(); ++s) {
-            if (is_all(s) && partial > 0) continue;
-            for (const std::size_t e : members[s]) {
-                if (elements_[e].set < 0)
-                    elements_[e].set = static_cast<int>(s);
-                else
-                    lost = true;
-            }
-        }
-        if (lost)
+    /// An element belongs to the first set that has it; a set of all elements is for the rest.
+    std::vector<int> assign_sets() {
+        std::vector<long long> ids;
+        ids.reserve(elements_.size());
+        for (std::size_t e = 0; e < elements_.size(); ++e) ids.push_back(element_ids_.id(e));
+        ElementSets::Assignment assignment = sets_.assign(ids, skipped_ids_);
+        if (assignment.overlap)
             data_.warn("sets-overlap", "element sets overlap: an element belongs to the first that has it");
-    }
-
-    struct Range {
-        long long first, last, step;
-    };
-
-    /// Ids that no element has are passed over: sets may hold elements that are skipped.
-    void collect(const Range& range, std::vector<std::size_t>& members) const {
-        const auto steps = static_cast<unsigned long long>(range.last - range.first) /
-                           static_cast<unsigned long long>(range.step);
-        if (steps <= elements_.size()) {
-            for (long long id = range.first; id <= range.last; id += range.step) {
-                const std::size_t e = element_ids_.find(id);
-                if (e < elements_.size()) members.push_back(e);
-                if (range.last - id < range.step) break;
-            }
-            return;
-        }
-        for (std::size_t e = 0; e < elements_.size(); ++e) {
-            const long long id = element_ids_.id(e);
-            if (id >= range.first && id <= range.last && (id - range.first) % range.step == 0)
-                members.push_back(e);
-        }
+        const auto more = [](const std::vector<int>& sets) {
+            return sets.size() > 1 ? " (and " + std::to_string(sets.size() - 1) + " more such sets)"
+                                   : std::string();
+        };
+        if (const auto& unused = assignment.without_elements; !unused.empty())
+            data_.warn("sets-skipped", "element set " + in_quotes(sets_.name(unused.front())) +
+                                           " of all elements is not kept: each of them is in another set" +
+                                           more(unused));
+        if (const auto& sets = assignment.incomplete; !sets.empty())
+            data_.warn("elements-missing", "element set " + in_quotes(sets_.name(sets.front())) +
+                                               " names element " + std::to_string(assignment.missing_id) +
+                                               ", which the file does not define" + more(sets));
+        return std::move(assignment.set_of_element);
     }
 
     void add(const Element& element, std::size_t e, int part) {
@@ -374,6 +368,7 @@ class AbaqusReader {
     bool instance_ = false;
     bool generate_ = false;
     bool nested_sets_ = false;
+    bool continued_ = false;  ///< a skipped element goes on in the next line
     int parts_ = 0;
     int instances_ = 0;
     int set_ = -1;
@@ -383,9 +378,9 @@ class AbaqusReader {
     IdMap node_ids_, element_ids_;
     std::vector<std::size_t> node_positions_;
     std::vector<Element> elements_;
-    std::map<std::string, int> set_of_name_;
-    std::vector<std::string> set_names_;
-    std::vector<std::vector<Range>> sets_;
+    std::map<std::string, std::vector<std::size_t>> skipped_keywords_;  // positions in the file
+    std::vector<long long> skipped_ids_;
+    ElementSets sets_;
 };
 
 void append_nodes(OutputFile& out, std::span<const Vec3> points) {
