@@ -5,6 +5,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <numbers>
 #include <set>
 
 namespace hex {
@@ -128,6 +132,60 @@ TEST(Triangulate, PolygonsBecomeTrianglesThatKnowTheirPolygon) {
         EXPECT_EQ(mesh.data(f).part, source + 1);
     }
     EXPECT_EQ(count, (std::vector<int>{4, 4, 2, 2, 2, 2, 2, 2}));
+}
+
+/// A prism over a star with `rays` rays (concave when `inner` is small), 2 rays corners a polygon.
+PolygonSoup star_prism(std::uint32_t rays, double inner) {
+    const std::uint32_t n = 2 * rays;
+    std::vector<Vec3> points;
+    for (const double z : {0.0, 1.0})
+        for (std::uint32_t i = 0; i < n; ++i) {
+            const double radius = i % 2 == 0 ? 1.0 : inner, angle = 2 * std::numbers::pi * i / n;
+            points.emplace_back(radius * std::cos(angle), z, -radius * std::sin(angle));
+        }
+    std::vector<std::vector<std::uint32_t>> polygons(2);
+    for (std::uint32_t i = 0; i < n; ++i) {
+        polygons[0].push_back(n - 1 - i);
+        polygons[1].push_back(n + i);
+        polygons.push_back({i, (i + 1) % n, (i + 1) % n + n, i + n});
+    }
+    return soup_of(points, polygons);
+}
+
+TEST(Triangulate, PolygonsWithManyCornersAreFilled) {
+    for (const double inner : {1.0, 0.5}) {
+        constexpr std::uint32_t rays = 3000;
+        const TriangleMesh mesh = make_triangle_mesh(star_prism(rays, inner));
+        EXPECT_EQ(mesh.n_faces(), 2U * (2 * rays - 2) + 2U * 2 * rays);
+        EXPECT_NEAR(enclosed_volume(mesh), rays * inner * std::sin(std::numbers::pi / rays), 1e-9);
+        std::set<std::int64_t> sources;
+        for (const auto f : mesh.faces()) {
+            sources.insert(mesh.data(f).source);
+            EXPECT_EQ(mesh.data(f).part, mesh.data(f).source + 1);
+        }
+        EXPECT_EQ(sources.size(), 2U * rays + 2);
+    }
+}
+
+TEST(Triangulate, TheTimeDoesNotGrowWithTheSquareOfTheCorners) {
+    const auto clocks = [](std::uint32_t rays) {
+        const PolygonSoup soup = star_prism(rays, 1.0);
+        const auto start = std::clock();
+        make_triangle_mesh(soup);
+        return static_cast<double>(std::clock() - start);
+    };
+    // Eight times as many take 8 to 10 times as long; going through all corners for each of them, 40.
+    const double few = std::min(clocks(5000), clocks(5000));
+    EXPECT_LT(clocks(40000), 20 * few);
+}
+
+TEST(Triangulate, ALargePolygonThatCrossesItselfIsRefused) {
+    PolygonSoup soup = star_prism(1000, 1.0);
+    std::swap(soup.points[10], soup.points[500]);
+    std::swap(soup.points[2010], soup.points[2500]);
+    EXPECT_NE(message_of(soup).find("polygon 0 cannot be split"), std::string::npos) << message_of(soup);
+    for (Vec3& point : soup.points) point.x() = 0.0;
+    EXPECT_NE(message_of(soup).find("cannot be split"), std::string::npos) << message_of(soup);
 }
 
 TEST(Inspect, TellsIsolatedVerticesComponentsAndInsideOut) {

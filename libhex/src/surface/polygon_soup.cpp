@@ -15,6 +15,7 @@ struct EdgeUse {
     Index low;
     Index high;
     Index polygon;
+    Index corner;  ///< of the polygon, in the soup's list of corners, where the edge starts
     bool forward;  ///< the polygon runs from low to high
 };
 
@@ -55,7 +56,8 @@ std::vector<EdgeUse> sorted_edge_uses(const PolygonSoup& soup) {
         const auto polygon = soup.polygon(f);
         for (std::size_t i = 0; i < polygon.size(); ++i) {
             const Index a = polygon[i], b = polygon[(i + 1) % polygon.size()];
-            uses.push_back({std::min(a, b), std::max(a, b), static_cast<Index>(f), a < b});
+            uses.push_back({std::min(a, b), std::max(a, b), static_cast<Index>(f),
+                            static_cast<Index>(soup.offsets[f] + i), a < b});
         }
     }
     std::sort(uses.begin(), uses.end(), [](const EdgeUse& x, const EdgeUse& y) {
@@ -113,15 +115,16 @@ void check_vertices(const PolygonSoup& soup, const std::vector<EdgeUse>& uses) {
         while (parent[x] != x) x = parent[x] = parent[parent[x]];
         return x;
     };
-    const auto corner_of = [&](Index polygon, Index vertex) {
-        Index c = static_cast<Index>(soup.offsets[polygon]);
-        while (soup.corners[c] != vertex) ++c;
-        return c;
+    // The corner of an edge's polygon at one of its ends.
+    const auto corner_at = [&](const EdgeUse& use, Index vertex) {
+        if (soup.corners[use.corner] == vertex) return use.corner;
+        const bool last = use.corner + 1 == soup.offsets[use.polygon + 1];
+        return last ? static_cast<Index>(soup.offsets[use.polygon]) : use.corner + 1;
     };
     for (std::size_t i = 0; i + 1 < uses.size(); ++i) {
         if (uses[i].low != uses[i + 1].low || uses[i].high != uses[i + 1].high) continue;
         for (const Index vertex : {uses[i].low, uses[i].high})
-            parent[find(corner_of(uses[i].polygon, vertex))] = find(corner_of(uses[i + 1].polygon, vertex));
+            parent[find(corner_at(uses[i], vertex))] = find(corner_at(uses[i + 1], vertex));
     }
     const auto none = static_cast<Index>(soup.corners.size());
     std::vector<Index> fan_of_vertex(soup.points.size(), none);
