@@ -143,8 +143,9 @@ int Chain::run() {
     const auto first = static_cast<Stage>(stage_index("from", line_.get<std::string>("from")));
     const auto last = static_cast<Stage>(stage_index("to", line_.get<std::string>("to")));
     if (first > last) throw hex::Error(hex::ErrorKind::usage, "--from comes after --to");
-    make_folder();
     choose_route(first);
+    require_inputs_stay(first);
+    if (first > segment_stage) make_folder();
     if (first < spline_stage) run_hex_stages(first, std::min(last, improve_stage));
     if (last == spline_stage) {
         const auto start = std::chrono::steady_clock::now();
@@ -157,11 +158,25 @@ int Chain::run() {
     return 0;
 }
 
-void Chain::make_folder() {
+void Chain::make_folder() const {
     std::error_code problem;
     std::filesystem::create_directories(folder_, problem);
     if (problem || !std::filesystem::is_directory(folder_))
         throw hex::Error(hex::ErrorKind::output, "the output folder cannot be made", folder_.string());
+}
+
+bool Chain::is_given(const char* option, const std::filesystem::path& file) const {
+    std::error_code ignored;
+    return line_.given(option) && std::filesystem::equivalent(line_.get<std::string>(option), file, ignored);
+}
+
+void Chain::require_inputs_stay(Stage first) const {
+    if (first > segment_stage) return;
+    // Its part ids would be others afterwards.
+    for (const char* name : {"1-segment.k", "2-polycube.k", "2-patches.k"})
+        if (is_given("input", folder_ / name))
+            throw hex::Error(hex::ErrorKind::usage, "the input would be overwritten", line_.input().string(),
+                             "go on with --from polycube, or give another output folder");
 }
 
 void Chain::choose_route(Stage first) {
@@ -190,6 +205,7 @@ void Chain::run_hex_stages(Stage first, Stage last) {
         SurfaceInput input = load_surface_input(line_, line_.input());
         model_.surface = std::move(input.mesh);
         repair_ = {{"repair", std::move(input.repair)}};
+        make_folder();
     } else if (model_.route == hex::Route::voxel || (first == polycube_stage && !is_given)) {
         model_.surface = load_triangles(line_, folder_ / "1-segment.k");
     }
@@ -281,12 +297,14 @@ void Chain::write(hex::HexStage stage, const hex::HexModel& model) const {
         case hex::HexStage::polycube:
             if (model.polycube) {
                 hex::io::write_surface(folder_ / "2-polycube.k", hex::polycube_surface(*model.polycube));
-                hex::io::write_surface(folder_ / "2-patches.k", hex::to_soup(*model.patches));
+                if (!is_given("segmentation", folder_ / "2-patches.k"))
+                    hex::io::write_surface(folder_ / "2-patches.k", hex::to_soup(*model.patches));
             } else {
                 for (const char* name : {"2-polycube.k", "2-patches.k"})
                     std::filesystem::remove(folder_ / name);
             }
-            if (model.blocks) hex::io::write_hex_mesh(folder_ / "2-blocks.k", *model.blocks);
+            if (model.blocks && !is_given("blocks", folder_ / "2-blocks.k"))
+                hex::io::write_hex_mesh(folder_ / "2-blocks.k", *model.blocks);
             return;
         case hex::HexStage::map:
             return hex::io::write_hex_mesh(folder_ / "3-map.vtk", *model.mapped);

@@ -32,7 +32,11 @@ class Chain {
   private:
     enum Stage : std::size_t { segment_stage, polycube_stage, map_stage, improve_stage, spline_stage };
 
-    void make_folder();
+    void make_folder() const;
+    /// Throws Error{usage} when a stage from `first` on would write over an input.
+    void require_inputs_stay(Stage first) const;
+    /// The file is one that a person gave: it stays as it is.
+    bool is_given(const char* option, const std::filesystem::path& file) const;
     void choose_route(Stage first);
     /// Runs the stages that are asked for, but for the spline.
     void run_hex_stages(Stage first, Stage last);

@@ -9,7 +9,9 @@
 #include <hex/io/output_file.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <iostream>
+#include <optional>
 #include <sstream>
 
 namespace cli {
@@ -34,6 +36,16 @@ std::vector<std::string> spellings(const std::string& names) {
     return result;
 }
 
+/// Where a file is or will be, whatever way leads there; nothing for what is no regular file.
+std::optional<std::filesystem::path> place_of(const std::filesystem::path& path) {
+    std::error_code problem;
+    const auto status = std::filesystem::status(path, problem);
+    if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) return {};
+    auto place = std::filesystem::weakly_canonical(std::filesystem::absolute(path, problem), problem);
+    if (problem || place.empty()) return {};
+    return place;
+}
+
 }  // namespace
 
 std::vector<Command> commands() {
@@ -48,13 +60,23 @@ RegisterCommand::RegisterCommand(Command command) {
 }
 
 struct CommandLine::State {
+    /// That an option names.
+    struct File {
+        std::string option;
+        std::filesystem::path place;
+        bool written;
+    };
+
     State() : own("Options"), common("Common options") {}
+
+    std::vector<File> files() const;
 
     po::options_description own;
     po::options_description common;
     po::positional_options_description positional;
     po::variables_map variables;
     std::vector<std::string> optional_integers;  ///< spellings of options whose value may be left out
+    std::vector<std::string> output_files = {"output", "json"};  ///< options that name these
     bool has_input = false;
     std::unique_ptr<Console> console;
 };
@@ -80,6 +102,11 @@ void CommandLine::add_input(const std::string& help) {
 void CommandLine::add_output(const std::string& help, bool required) {
     auto* semantic = value<std::string>();
     state_->own.add_options()("output,o", required ? semantic->required() : semantic, help.c_str());
+}
+
+void CommandLine::add_output_file(const std::string& names, const std::string& help) {
+    add(names, value<std::string>(), help);
+    state_->output_files.push_back(names.substr(0, names.find(',')));
 }
 
 void CommandLine::add(const std::string& names, const po::value_semantic* semantic, const std::string& help) {
@@ -140,6 +167,7 @@ bool CommandLine::parse(const std::vector<std::string>& arguments) {
     } catch (const po::error& problem) {
         usage_error(problem.what(), "see hexspline " + command_.name + " --help");
     }
+    require_different_files();
 
     ConsoleOptions console;
     console.command = command_.name;
@@ -153,6 +181,46 @@ bool CommandLine::parse(const std::vector<std::string>& arguments) {
     state_->console = std::make_unique<Console>(console);
     load_plugins(given("plugin") ? get<std::vector<std::string>>("plugin") : std::vector<std::string>());
     return true;
+}
+
+/// The files that options name, as far as it matters whether two are one: not folders, devices and pipes.
+std::vector<CommandLine::State::File> CommandLine::State::files() const {
+    std::vector<File> files;
+    for (const auto* group : {&own, &common}) {
+        for (const auto& option : group->options()) {
+            const std::string& name = option->long_name();
+            const auto found = variables.find(name);
+            if (found == variables.end()) continue;
+            const auto* text = boost::any_cast<std::string>(&found->second.value());
+            const bool written =
+                std::find(output_files.begin(), output_files.end(), name) != output_files.end();
+            const bool is_file = written || option->format_parameter().find("FILE") != std::string::npos;
+            if (text == nullptr || !is_file || *text == "-") continue;
+            if (const auto place = place_of(*text)) files.push_back({name, *place, written});
+        }
+    }
+    return files;
+}
+
+void CommandLine::require_different_files() const {
+    const std::vector<State::File> files = state_->files();
+    for (const auto& file : files) {
+        if (!file.written) continue;
+        for (const auto& other : files) {
+            // Each pair once. A file may be replaced by its own successor, as long as -o says so.
+            if (&other == &file || (other.written && &other < &file) || file.place != other.place) continue;
+            if (file.option == "output" && other.option == "input") continue;
+            usage_error("--" + file.option + " and --" + other.option + " are the same file " +
+                        get<std::string>(file.option));
+        }
+    }
+}
+
+void CommandLine::require_no_input(const std::filesystem::path& written) const {
+    const auto place = place_of(written);
+    for (const auto& file : state_->files())
+        if (place && !file.written && file.place == *place)
+            usage_error("--" + file.option + " would be overwritten: " + written.string());
 }
 
 bool CommandLine::given(const std::string& name) const {

@@ -77,7 +77,11 @@ class CommandLine {
     void add_input(const std::string& help);
     /// -o/--output; required unless `required` is false.
     void add_output(const std::string& help, bool required = true);
-    /// Any other option: "long,s" as in Boost.Program_options.
+    /// A file besides that is written. parse() refuses one that is another such file, the output, or an
+    /// input.
+    void add_output_file(const std::string& names, const std::string& help);
+    /// Any other option: "long,s" as in Boost.Program_options. With FILE in the name of its value it names an
+    /// input.
     void add(const std::string& names, const boost::program_options::value_semantic* semantic,
              const std::string& help);
     /// A switch.
@@ -120,6 +124,9 @@ class CommandLine {
     /// nothing without --json. An option --json that equals another output file, or the input, is an error.
     void write_report(const Json& report) const;
 
+    /// Throws Error{usage} when a file that is to be written without being named by an option is an input.
+    void require_no_input(const std::filesystem::path& written) const;
+
     /// Throws Error{usage} when the named option's value is outside [lower, upper].
     void require_range(const std::string& name, double value, double lower, double upper) const;
 
@@ -127,6 +134,7 @@ class CommandLine {
 
   private:
     const boost::program_options::variable_value& variable(const std::string& name) const;
+    void require_different_files() const;
     std::vector<std::string> normalise(const std::vector<std::string>& arguments) const;
 
     struct State;

@@ -15,8 +15,8 @@ void describe_cad_input(CommandLine& line) {
              "CAD input: how far triangles may leave their face (default: 0.0005 of the diagonal)");
     line.add("longest-edge", value<double>("H"),
              "CAD input: cut longer edges of triangles; 0 leaves them (default: 0.05 of the diagonal)");
-    line.add("features-out", value<std::string>(),
-             "CAD input: write the sharp edges of the model as lines of an .obj file");
+    line.add_output_file("features-out",
+                         "CAD input: write the sharp edges of the model as lines of an .obj file");
 }
 
 void describe_repair(CommandLine& line) {

@@ -147,6 +147,7 @@ class PillowImprover : public Improver {
                           const Context& context) const override {
         ImproveResult result{mesh, {}};
         const int layers = options.count < 0 ? 1 : options.count;
+        require_bearable(mesh, layers);
         for (int layer = 0; layer < layers; ++layer) {
             context.check_cancelled();
             std::vector<char> flagged(result.mesh.cell_count(), 1);
@@ -163,6 +164,17 @@ class PillowImprover : public Improver {
     }
 
   private:
+    /// Refuses numbers of layers whose cells nothing can hold, before the first of them is made.
+    static void require_bearable(const HexMesh& mesh, int layers) {
+        constexpr double most_cells = 5e8;
+        const double cells = static_cast<double>(mesh.cell_count()) +
+                             static_cast<double>(layers) * static_cast<double>(boundary_quads(mesh).size());
+        if (layers > 1 && cells > most_cells)
+            throw Error(ErrorKind::unsupported,
+                        std::to_string(layers) + " layers make more than 500 million hexahedra", {},
+                        "ask for fewer layers");
+    }
+
     static HexMesh add_layer(const HexMesh& mesh, const std::vector<char>& flagged, ImproveReport& report,
                              const Context& context) {
         const EdgeTable edges = edge_table(mesh);

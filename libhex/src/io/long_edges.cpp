@@ -15,6 +15,27 @@ std::uint64_t key_of(std::uint32_t a, std::uint32_t b) {
     return (std::uint64_t{std::min(a, b)} << 32) | std::max(a, b);
 }
 
+Error too_many() {
+    return Error(ErrorKind::unsupported, "the surface would have too many triangles", {},
+                 "allow longer edges");
+}
+
+/// Refuses what would not end, before the first cut.
+void require_bearable(const PolygonSoup& triangles, double longest) {
+    constexpr double most_triangles = 5e7;
+    double pieces = 0.0;
+    for (std::size_t f = 0; f < triangles.size(); ++f) {
+        double longest_side = 0.0;
+        for (std::size_t k = 0; k < 3; ++k) {
+            const Vec3& p = triangles.points[triangles.polygon(f)[k]];
+            const Vec3& q = triangles.points[triangles.polygon(f)[(k + 1) % 3]];
+            longest_side = std::max(longest_side, (p - q).norm());
+        }
+        pieces += longest_side / longest;  // at least, however thin it is
+    }
+    if (pieces > most_triangles) throw too_many();
+}
+
 /// One round: a midpoint for each long edge, then each triangle by how many of its edges have one.
 class Round {
   public:
@@ -45,9 +66,7 @@ class Round {
         const auto [entry, added] =
             middle_.emplace(key_of(a, b), static_cast<std::uint32_t>(soup_.points.size()));
         if (added) soup_.points.emplace_back(0.5 * (p + q));
-        if (soup_.points.size() >= std::numeric_limits<std::int32_t>::max() / 4)
-            throw Error(ErrorKind::unsupported, "the surface would have too many triangles", {},
-                        "allow longer edges");
+        if (soup_.points.size() >= std::numeric_limits<std::int32_t>::max() / 4) throw too_many();
     }
 
     void cut_triangle(std::array<std::uint32_t, 3> v, int part, PolygonSoup& out) const {
@@ -114,6 +133,7 @@ class Round {
 }  // namespace
 
 void cut_long_edges(PolygonSoup& triangles, std::vector<Edge>& marked, double longest) {
+    require_bearable(triangles, longest);
     while (Round(triangles, longest).run(marked)) {
     }
 }

@@ -385,6 +385,18 @@ void append(VoxelResult& all, const VoxelResult& body) {
     report.euler_characteristic += body.report.euler_characteristic;
 }
 
+/// Refuses grids that would not end.
+void require_bearable(const TriangleMesh& surface, double size) {
+    constexpr double most_cells = 2e8;
+    const BoundingBox box = bounding_box(surface);
+    const double cells = ((box.upper - box.lower) / size).array().max(1.0).prod();
+    if (cells > most_cells)
+        throw Error(
+            ErrorKind::unsupported,
+            "so small cells make a grid of more than " + std::to_string(static_cast<std::size_t>(most_cells)),
+            {}, "choose larger cells");
+}
+
 VoxelResult build(const TriangleMesh& surface, const VoxelOptions& options, const Context& context) {
     const std::vector<Body> bodies = bodies_of(surface);
     double volume = 0.0;
@@ -398,6 +410,7 @@ VoxelResult build(const TriangleMesh& surface, const VoxelOptions& options, cons
     const double size = options.cell_size > 0.0 ? options.cell_size
                                                 : size_for(options.target_cells, volume, area_of(surface),
                                                            bounding_box(surface).diagonal());
+    for (const Body& body : bodies) require_bearable(body.surface, size);
     std::optional<VoxelResult> all;
     for (std::size_t b = 0; b < bodies.size(); ++b) {
         context.progress("voxel", static_cast<double>(b) / static_cast<double>(bodies.size()));
@@ -416,7 +429,8 @@ VoxelResult build(const TriangleMesh& surface, const VoxelOptions& options, cons
 VoxelResult voxel_blocks(const TriangleMesh& surface, const VoxelOptions& options, const Context& context) {
     if (surface.n_faces() == 0) throw Error(ErrorKind::bad_input, "the surface has no triangles");
     if (!(options.cell_size >= 0.0) || !std::isfinite(options.cell_size))
-        throw Error(ErrorKind::usage, "the cell size is negative", {}, "give 0 for one found automatically");
+        throw Error(ErrorKind::usage, "the cell size is negative or no number", {},
+                    "give 0 for one found automatically");
     if (options.target_cells == 0 || options.most_cells == 0)
         throw Error(ErrorKind::usage, "the number of cells is zero");
     return with_threads(context, [&] { return build(surface, options, context); });

@@ -142,7 +142,11 @@ class Reader {
 
 BezierSpline read_bext(const std::filesystem::path& path) {
     const std::string text = read_whole(path);
-    if (text.starts_with("B E X T 2")) return to_spline(read_bext2(path));
+    try {
+        if (text.starts_with("B E X T 2")) return to_spline(read_bext2(path));
+    } catch (const hex::Error& error) {
+        throw error.located(path.string());
+    }
     return Reader(path, text).read();
 }
 

@@ -6,6 +6,12 @@
 
 namespace spline::io {
 
+std::filesystem::path control_mesh_path(const std::filesystem::path& prefix, std::size_t level) {
+    std::filesystem::path path = prefix;
+    path += "_hmesh" + std::to_string(level) + "_CM.vtk";
+    return path;
+}
+
 std::vector<std::filesystem::path> write_control_meshes(const std::filesystem::path& prefix,
                                                         std::span<const ControlMesh> levels) {
     std::vector<std::filesystem::path> paths;
@@ -17,8 +23,7 @@ std::vector<std::filesystem::path> write_control_meshes(const std::filesystem::p
         std::vector<double> ids(level.mesh.cell_count());
         std::iota(ids.begin(), ids.end(), 0.0);
         fields.cell.push_back({"id", std::move(ids)});
-        std::filesystem::path path = prefix;
-        path += "_hmesh" + std::to_string(l) + "_CM.vtk";
+        std::filesystem::path path = control_mesh_path(prefix, l);
         hex::io::write_hex_mesh(path, level.mesh, fields);
         paths.push_back(std::move(path));
     }

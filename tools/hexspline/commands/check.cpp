@@ -7,6 +7,7 @@
 #include "hexspline/check_report.h"
 #include "hexspline/command.h"
 #include "hexspline/inputs.h"
+#include "hexspline/spline_file.h"
 
 #include <hex/base/error.h>
 #include <hex/io/hex_file.h>
@@ -49,10 +50,10 @@ void describe(CommandLine& line) {
     line.add("baseline-tolerance", value<double>("T")->default_value(1e-9, "1e-9"),
              "relative change that is not worse yet");
     line.add("worst", value<int>("N")->default_value(5), "list the N worst elements of each metric");
-    line.add("junit", value<std::string>("FILE"), "write the demands as JUnit XML");
-    line.add("sarif", value<std::string>("FILE"), "write what failed as SARIF 2.1.0");
-    line.add("markdown", value<std::string>("FILE"), "write a summary as Markdown");
-    line.add("vtu", value<std::string>("FILE"), "write the mesh with its metrics as cell data");
+    line.add_output_file("junit", "write the demands as JUnit XML");
+    line.add_output_file("sarif", "write what failed as SARIF 2.1.0");
+    line.add_output_file("markdown", "write a summary as Markdown");
+    line.add_output_file("vtu", "write the mesh with its metrics as cell data");
 }
 
 /// Profile or configuration file first, then the options.
@@ -120,11 +121,6 @@ Findings examine(const CommandLine& line, const hex::HexMesh& mesh, const Demand
     return findings;
 }
 
-bool is_bext(const std::filesystem::path& path) {
-    const std::string extension = hex::io::extension_of(path);
-    return extension == ".bext" || extension == ".bxt";
-}
-
 /// The corners of the Bezier elements as hexahedra, each with vertices of its own.
 hex::HexMesh corner_mesh(const spline::BezierSpline& spline) {
     const auto bezier = spline::bezier_points(spline);
@@ -147,27 +143,7 @@ void write_vtu(const std::filesystem::path& file, const Outcome& outcome) {
     hex::io::write_hex_mesh(file, outcome.mesh, fields);
 }
 
-/// No output may be written over another, or over the input.
-void require_different_files(const CommandLine& line) {
-    std::vector<std::pair<std::filesystem::path, std::string>> taken = {{line.input(), "the input"}};
-    for (const char* name : {"json", "junit", "sarif", "markdown", "vtu"}) {
-        const auto file = line.get_or<std::string>(name, "-");
-        if (file == "-" || file.starts_with("/dev/")) continue;
-        const auto place = [](const std::filesystem::path& path) {
-            std::error_code ignored;
-            return std::filesystem::weakly_canonical(std::filesystem::absolute(path, ignored), ignored);
-        };
-        for (const auto& [other, what] : taken) {
-            if (place(file) == place(other))
-                throw hex::Error(hex::ErrorKind::usage, std::string("--").append(name) + " and " + what +
-                                                            " are the same file " + file);
-        }
-        taken.emplace_back(file, std::string("--").append(name));
-    }
-}
-
 int run(CommandLine& line) {
-    require_different_files(line);
     line.require_range("worst", line.get<int>("worst"), 0, 1e6);
     line.require_range("duplicate-tolerance", line.get<double>("duplicate-tolerance"), 0.0, 1.0);
     line.require_range("baseline-tolerance", line.get<double>("baseline-tolerance"), 0.0, 1e30);

@@ -3,14 +3,17 @@
 ///   hexspline convert -i part_hex.vtk -o part_hex.vtu
 ///   hexspline convert -i part.stl --labels labels.txt -o part_segment.k
 ///   hexspline convert -i part.step -o part.k --features-out part_edges.obj
+///   hexspline convert -i part.bext -o part.bxt
 
 #include "hexspline/command.h"
+#include "hexspline/spline_file.h"
 #include "hexspline/surface_input.h"
 
 #include <hex/base/error.h>
 #include <hex/io/cad_file.h>
 #include <hex/io/list_file.h>
 #include <hex/io/mesh_file.h>
+#include <spline/io/bext.h>
 
 #include <algorithm>
 #include <climits>
@@ -31,11 +34,13 @@ std::string list_of_formats() {
         list += format.writes_hexahedra ? "w  " : "-  ";
         list.append(format.name) += '\n';
     }
-    return list + "A file of hexahedra is written as hexahedra, any other as a surface.";
+    return list +
+           "A file of hexahedra is written as hexahedra, any other as a surface.\n"
+           "Splines: .bext (BEXT 1) and .bxt (BEXT 2.0) are read and written, .vtu and .json written.";
 }
 
 void describe(CommandLine& line) {
-    line.add_input("surface or hexahedral mesh");
+    line.add_input("surface, hexahedral mesh, or spline as BEXT");
     line.add_output(
         "the same in the format of this file's extension; .txt: its labels (part id - 1), one a line");
     line.add("labels", value<std::string>("FILE"), "one label a polygon, as text: becomes the part id - 1");
@@ -97,7 +102,29 @@ std::vector<int> parts_of(const hex::HexMesh& mesh) {
     return parts;
 }
 
+int convert_spline(const CommandLine& line) {
+    for (const char* name : {"labels", "repair"})
+        if (line.given(name))
+            throw hex::Error(hex::ErrorKind::usage,
+                             std::string("--") + name + " is for surfaces; the input is a spline");
+    require_cad_for_its_options(line, line.input());
+    const auto format = spline_format_of(line.output());
+    if (!format)
+        throw hex::Error(hex::ErrorKind::usage,
+                         "a spline cannot be written as " + hex::io::extension_of(line.output()),
+                         line.output().string(), "use .bext, .bxt, .vtu or .json");
+    const spline::BezierSpline spline = spline::io::read_bext(line.input());
+    write_spline(line.output(), *format, spline, line.context());
+    line.info(std::to_string(spline.function_count()) + " control points, " +
+              std::to_string(spline.element_count()) + " elements");
+    line.write_report({{"content", "spline"},
+                       {"control_points", spline.function_count()},
+                       {"bezier_elements", spline.element_count()}});
+    return 0;
+}
+
 int run(CommandLine& line) {
+    if (is_bext(line.input())) return convert_spline(line);
     hex::io::MeshFile file = read_input(line);
     line.context().check_cancelled();
     const bool labels_out = names_label_file(line.output());
@@ -156,7 +183,8 @@ const RegisterCommand registered(
      .sample_runs = {"hexspline convert -i part.stl -o part.k",
                      "hexspline convert -i part_hex.vtk -o part_hex.vtu",
                      "hexspline convert -i part.stl --labels labels.txt -o part_segment.k",
-                     "hexspline convert -i part.step -o part.k --features-out part_edges.obj"},
+                     "hexspline convert -i part.step -o part.k --features-out part_edges.obj",
+                     "hexspline convert -i part.bext -o part.bxt"},
      .describe = describe,
      .run = run});
 

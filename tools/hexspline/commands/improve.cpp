@@ -56,8 +56,8 @@ void describe(CommandLine& line) {
              "untangle, auto: sharp edges of the surface (of the input without --surface): by -t, between "
              "parts of "
              "--surface, or listed in a file, two vertices a line, counted from 0");
-    line.add("features-out", value<std::string>(),
-             "untangle, auto: write the sharp edges that were used, for --features");
+    line.add_output_file("features-out",
+                         "untangle, auto: write the sharp edges that were used, for --features");
 }
 
 /// The paper's numbers of the methods, and names.

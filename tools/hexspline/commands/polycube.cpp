@@ -21,10 +21,9 @@ namespace {
 void describe(CommandLine& line) {
     line.add_input("triangles whose part ids are patches, or labels + 1 for --patches and --blocks");
     line.add_output("polycube surface: one quad per patch", false);
-    line.add("patches", value<std::string>(),
-             "write the triangles cut into four-sided patches, made from labels; part id = patch");
-    line.add("blocks", value<std::string>(),
-             "write the hexahedral blocks of those patches, made from labels");
+    line.add_output_file(
+        "patches", "write the triangles cut into four-sided patches, made from labels; part id = patch");
+    line.add_output_file("blocks", "write the hexahedral blocks of those patches, made from labels");
     line.add(
         "unit", value<double>("H")->default_value(0.0),
         "length of one unit of the integer polycube, for --patches and --blocks; of voxel the cell size; 0: "

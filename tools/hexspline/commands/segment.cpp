@@ -29,7 +29,7 @@ void describe(CommandLine& line) {
     line.add("attempt", value<int>("0|1|2|3")->default_value(0),
              "auto: other labels, to try when no polycube can be built from the first");
     line.add_switch("align", "auto: turn the part to its best axes; -o holds it turned, the report says how");
-    line.add("labels", value<std::string>(), "write one label 0..5 = +X -X +Y -Y +Z -Z per triangle as text");
+    line.add_output_file("labels", "write one label 0..5 = +X -X +Y -Y +Z -Z per triangle as text");
     line.add_switch(
         "from-patches",
         "the part ids of -i are patches made by hand: check them, and make those for triangles of part 0");

@@ -5,18 +5,15 @@
 
 #include "hexspline/command.h"
 #include "hexspline/inputs.h"
+#include "hexspline/spline_file.h"
 
 #include <hex/base/error.h>
 #include <hex/io/list_file.h>
 #include <hex/io/mesh_file.h>
 #include <hex/io/surface_file.h>
 #include <spline/fit.h>
-#include <spline/io/bext.h>
-#include <spline/io/bext2.h>
-#include <spline/io/bezier_vtu.h>
 #include <spline/io/control_mesh_file.h>
 #include <spline/io/deck.h>
-#include <spline/io/spline_json.h>
 #include <spline/jacobian.h>
 #include <spline/repair.h>
 #include <spline/spline.h>
@@ -32,34 +29,21 @@ namespace {
 /// Value of -l without a number.
 constexpr int all_levels = -1;
 
-enum class Format { bext, bext2, vtu, json };
-
 /// --format, else the extension of the output; what is no extension of ours means BEXT.
-Format output_format(const CommandLine& line) {
-    if (line.given("format")) {
-        const auto name = line.get<std::string>("format");
-        if (name == "bext") return Format::bext;
-        if (name == "bext2") return Format::bext2;
-        if (name == "vtu") return Format::vtu;
-        if (name == "json") return Format::json;
-        throw hex::Error(hex::ErrorKind::usage, "unknown --format '" + name + "'", {},
-                         "known: bext, bext2, vtu, json");
-    }
-    if (!line.given("output")) return Format::bext;
+SplineFormat output_format(const CommandLine& line) {
+    if (line.given("format")) return spline_format_named(line.get<std::string>("format"));
+    if (!line.given("output")) return SplineFormat::bext;
+    if (const auto format = spline_format_of(line.output())) return *format;
     const std::string extension = hex::io::extension_of(line.output());
-    if (extension == ".vtu") return Format::vtu;
-    if (extension == ".json") return Format::json;
-    if (extension == ".bxt" || extension == ".bext2") return Format::bext2;
-    constexpr std::array meshes = {".vtk", ".k", ".key", ".mesh", ".stl", ".obj", ".off", ".ply"};
-    if (std::find(meshes.begin(), meshes.end(), extension) != meshes.end())
+    if (hex::io::find_format(line.output()) != nullptr)
         throw hex::Error(hex::ErrorKind::usage, "a spline cannot be written as " + extension,
                          line.output().string(), "use .BEXT, .bxt, .vtu or .json, or say --format");
-    return Format::bext;
+    return SplineFormat::bext;
 }
 
 /// The output that was named, or one beside the input: rod_hex.vtk gives rod_hex_BEXT.txt, as the paper has
 /// it.
-std::filesystem::path output_path(const CommandLine& line, Format format) {
+std::filesystem::path output_path(const CommandLine& line, SplineFormat format) {
     if (line.given("output")) return line.output();
     std::filesystem::path path = line.input();
     constexpr std::array endings = {"_BEXT.txt", "_BEXT2.bxt", "_spline.vtu", "_spline.json"};
@@ -296,22 +280,8 @@ Json fit_to_surface(const CommandLine& line, const Part& part,
             {"held_back", report.held_back}};
 }
 
-void write_spline(const CommandLine& line, const std::filesystem::path& path, Format format,
-                  const spline::BezierSpline& spline) {
-    switch (format) {
-        case Format::bext:
-            return spline::io::write_bext(path, spline, line.context());
-        case Format::bext2:
-            return spline::io::write_bext2(path, spline, line.context());
-        case Format::vtu:
-            return spline::io::write_bezier_vtu(path, spline);
-        case Format::json:
-            return spline::io::write_spline_json(path, spline);
-    }
-}
-
 /// The deck that --deck asks for, beside the BEXT. Returns its path.
-std::string write_deck(const CommandLine& line, const std::filesystem::path& bext, Format format,
+std::string write_deck(const CommandLine& line, const std::filesystem::path& bext, SplineFormat format,
                        const spline::BezierSpline& spline) {
     if (!line.given("deck")) return {};
     spline::io::DeckOptions options;
@@ -320,18 +290,19 @@ std::string write_deck(const CommandLine& line, const std::filesystem::path& bex
         options.kind = spline::io::DeckKind::linear_static;
     else if (kind != "eigen")
         throw hex::Error(hex::ErrorKind::usage, "unknown --deck '" + kind + "'", {}, "known: eigen, static");
-    if (format != Format::bext && format != Format::bext2)
+    if (format != SplineFormat::bext && format != SplineFormat::bext2)
         throw hex::Error(hex::ErrorKind::usage, "--deck needs a BEXT file as output");
     options.bext = bext.filename().string();
-    options.bext2 = format == Format::bext2;
+    options.bext2 = format == SplineFormat::bext2;
     std::filesystem::path path = bext;
     path.replace_filename(bext.stem().string() + "_" + kind + ".k");
+    line.require_no_input(path);
     spline::io::write_deck(path, spline, options);
     return path.string();
 }
 
 int run(CommandLine& line) {
-    const Format format = output_format(line);
+    const SplineFormat format = output_format(line);
     const auto path = output_path(line, format);
     spline::SplineOptions options = options_of(line);
     const hex::HexMesh mesh = load_hexahedra(line, line.input());
@@ -367,7 +338,8 @@ int run(CommandLine& line) {
     const Json repair = settle_jacobians(line, result, verdict);
     const Json fit = fit_to_surface(line, part, unfitted, result, verdict);
 
-    write_spline(line, path, format, result.spline);
+    line.require_no_input(path);
+    write_spline(path, format, result.spline, line.context());
     const std::string deck = write_deck(line, path, format, result.spline);
     line.info(path.string() + ": " + std::to_string(result.spline.function_count()) + " control points, " +
               std::to_string(result.spline.element_count()) + " elements");
@@ -378,9 +350,11 @@ int run(CommandLine& line) {
     report["output"] = path.string();
     if (!deck.empty()) report["deck"] = deck;
     if (line.given("control-mesh")) {
+        const auto prefix = line.get<std::string>("control-mesh");
+        for (std::size_t level = 0; level < result.levels.size(); ++level)
+            line.require_no_input(spline::io::control_mesh_path(prefix, level));
         Json files = Json::array();
-        for (const auto& file :
-             spline::io::write_control_meshes(line.get<std::string>("control-mesh"), result.levels))
+        for (const auto& file : spline::io::write_control_meshes(prefix, result.levels))
             files.push_back(file.string());
         report["control_meshes"] = std::move(files);
     }

@@ -10,6 +10,9 @@
 
 namespace spline::io {
 
+/// PREFIX_hmesh<level>_CM.vtk.
+std::filesystem::path control_mesh_path(const std::filesystem::path& prefix, std::size_t level);
+
 /// Writes `PREFIX_hmesh<l>_CM.vtk` for every level l: vertex scalar `pact` (function active), cell scalars
 /// `eact` (element active) and `id` (the number that lev_rfid.txt wants). Returns the paths.
 /// Throws Error{output}.
