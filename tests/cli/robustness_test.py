@@ -11,7 +11,7 @@ import time
 import unittest
 from pathlib import Path
 
-from program import PROGRAM, ROD, CommandTest
+from program import DATA, PROGRAM, ROD, CommandTest
 
 
 def grid_text(n):
@@ -37,6 +37,18 @@ class Robustness(CommandTest):
         self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
         self.assertIn(': error: ', done.stderr)
         return done.stderr
+
+    def locale(self, name):
+        """The environment of a locale; one with a decimal comma is made here, for no machine need have it."""
+        environment = {'LC_ALL': name, 'LC_NUMERIC': name}
+        if name == 'de_DE.UTF-8':
+            folder = self.folder / 'locales'
+            folder.mkdir()
+            subprocess.run(['localedef', '-i', 'de_DE', '-f', 'UTF-8', folder / name], check=True, capture_output=True)
+            environment['LOCPATH'] = str(folder)
+            comma = subprocess.run(['/usr/bin/printf', '%.1f', '1,5'], env=environment, capture_output=True, text=True)
+            self.assertEqual(comma.stdout, '1,5')
+        return environment
 
     def left_over(self):
         return [path.name for path in self.folder.rglob('*') if '.part-' in path.name]
@@ -159,12 +171,15 @@ class Robustness(CommandTest):
         source, target = odd / 'ein Würfel.off', odd / "it's done.inp"
         self.run_program('convert', ROD / 'rod_tri.k', '-o', source)
         plain = source.read_text()
-        for locale in ('C', 'C.UTF-8', 'de_DE.UTF-8', 'fr_FR.ISO8859-1', 'no_such'):
-            environment = {**os.environ, 'LC_ALL': locale, 'LC_NUMERIC': locale}
-            done = subprocess.run([PROGRAM, 'convert', source, '-o', target], env=environment, capture_output=True, text=True)
-            self.assertEqual(done.returncode, 0, done.stderr)
-            self.run_program('convert', target, '-o', odd / 'again.off')
-            self.assertEqual((odd / 'again.off').read_text(), plain)
+        self.run_program('convert', DATA / 'angle' / 'angle.step', '-o', 'angle.off')
+        for locale in ('C', 'C.UTF-8', 'de_DE.UTF-8', 'no_such'):
+            environment = {**os.environ, **self.locale(locale)}
+            for name in (source, DATA / 'angle' / 'angle.step'):
+                done = subprocess.run([PROGRAM, 'convert', name, '-o', target], env=environment, capture_output=True, text=True)
+                self.assertEqual(done.returncode, 0, done.stderr)
+                self.run_program('convert', target, '-o', odd / 'again.off')
+                expected = plain if name == source else (self.folder / 'angle.off').read_text()
+                self.assertEqual((odd / 'again.off').read_text(), expected)
         long_name = odd / ('n' * 251 + '.off')
         self.run_program('convert', source, '-o', long_name)
         self.assertEqual(long_name.read_text(), plain)
