@@ -1,5 +1,6 @@
-# cmake -DBUILD_DIR= -DWORK_DIR= -DVERSION= -P package_test.cmake
-# cpack makes a Debian package with everything in its place, and its program runs from where it was unpacked.
+# cmake -DBUILD_DIR= -DWORK_DIR= -DDATA_DIR= -DVERSION= -P package_test.cmake
+# cpack makes a Debian package with everything in its place, what it depends on are packages of this Debian, and its program makes a part
+# from where it was unpacked, with its own libraries.
 function(run)
     execute_process(COMMAND ${ARGV} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE errors)
     if(NOT result EQUAL 0)
@@ -19,6 +20,18 @@ run(dpkg-deb --info "${package}")
 if(NOT output MATCHES "Depends: .*libtbb")
     message(FATAL_ERROR "the package does not ask for the libraries that it needs\n${output}")
 endif()
+run(dpkg-deb --field "${package}" Depends)
+string(REGEX REPLACE " *\\([^)]*\\)|\n" "" names "${output}")
+string(REGEX REPLACE ", *" ";" names "${names}")
+run(dpkg-query --show "--showformat=\${Package} \${Provides} ")
+string(REPLACE "," " " installed " ${output}")
+foreach(name ${names})
+    string(REGEX REPLACE " *\\|.*" "" name "${name}")  # the first of alternatives
+    string(FIND "${installed}" " ${name} " place)
+    if(place LESS 0)
+        message(FATAL_ERROR "the package depends on ${name}, which is not installed here, though the program was built here")
+    endif()
+endforeach()
 run(dpkg-deb --extract "${package}" "${WORK_DIR}/unpacked")
 foreach(file bin/hexspline lib/libhexspline_hex.so include/hex/volume/hex_mesh.h include/spline/spline.h
              lib/cmake/hexspline/hexspline-config.cmake share/man/man1/hexspline.1 share/man/man1/hexspline-check.1
@@ -31,3 +44,13 @@ run("${WORK_DIR}/unpacked/usr/bin/hexspline" --version)
 if(NOT output STREQUAL "hexspline ${VERSION}\n")
     message(FATAL_ERROR "the packaged program says ${output}")
 endif()
+
+run("${WORK_DIR}/unpacked/usr/bin/hexspline" run "${DATA_DIR}/bracket/bracket.stl" -o "${WORK_DIR}/bracket")
+foreach(file 1-segment.k 2-blocks.k 4-improve.vtk 5-spline.bext 5-spline.vtu report.json)
+    if(NOT EXISTS "${WORK_DIR}/bracket/${file}")
+        message(FATAL_ERROR "the packaged program made no ${file}")
+    endif()
+endforeach()
+run("${WORK_DIR}/unpacked/usr/bin/hexspline" check "${WORK_DIR}/bracket/4-improve.vtk" --min-scaled-jacobian 0.2)
+run(bash -n "${WORK_DIR}/unpacked/usr/share/bash-completion/completions/hexspline")
+run(bash -c "source '${WORK_DIR}/unpacked/usr/share/bash-completion/completions/hexspline' && complete -p hexspline")
