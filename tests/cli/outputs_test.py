@@ -81,6 +81,40 @@ class Outputs(CommandTest):
         self.run_program('run', 'missing.stl', '-o', 'out', code=3)
         self.assertFalse((self.folder / 'out').exists())
 
+    def test_every_output_that_cannot_be_written_is_named(self):
+        rod, patches, blocks = ROD / 'rod_tri.k', ROD / 'rod_patches.k', ROD / 'rod_blocks.k'
+        self.run_program('segment', rod, '-o', 'labelled.k')
+        check = ('check', blocks, '--min-scaled-jacobian', -1)
+        mapped = ('map', patches, '-p', blocks, '-s', 0)
+        self.run_program(*mapped, '-o', 'mesh.vtk')
+        improve = ('improve', 'mesh.vtk', '-m', 'smooth', '-n', 1)
+        for *command, option in ((*('segment', rod), '-o'), (*('segment', rod, '-o', 'a.k'), '--labels'),
+                                 (*('polycube', patches), '-o'), (*('polycube', 'labelled.k'), '--patches'),
+                                 (*('polycube', 'labelled.k'), '--blocks'), (*mapped, '-o'), (*improve, '-o'),
+                                 ('improve', 'mesh.vtk', '-o', 'b.vtk', '--features-out'), (*('spline', 'mesh.vtk'), '-o'),
+                                 (*('spline', 'mesh.vtk', '-o', 'c.bext'), '--control-mesh'), (*('convert', rod), '-o'),
+                                 (*check, '--json'), (*check, '--junit'), (*check, '--sarif'), (*check, '--markdown'),
+                                 (*check, '--vtu'), (*mapped, '-o', 'd.vtk', '--json')):
+            for bad in ('/dev/full', 'missing/folder/out', '/proc/out'):
+                # The format follows the extension.
+                ending = {'--control-mesh': '', '-o': '.vtk', '--vtu': '.vtu'}.get(option, '.k')
+                if command[0] in ('segment', 'polycube', 'convert'):
+                    ending = '.k'
+                if command[0] == 'spline':
+                    ending = ''
+                if bad == '/dev/full':
+                    if option == '--control-mesh':
+                        continue
+                    bad = f'full{ending}'
+                    if not os.path.lexists(self.folder / bad):
+                        os.symlink('/dev/full', self.folder / bad)
+                else:
+                    bad += ending
+                with self.subTest(command=command[0], option=option, output=bad):
+                    self.assertIn(bad, self.run_program(*command, option, bad, code=5).stderr)
+        self.run_program('run', blocks.with_name('rod.stl'), '-o', '/proc/out', code=5)
+        self.assertIn('--output', self.run_program('convert', rod, '-o', '', code=2).stderr)
+
     def test_what_is_too_large_is_refused_before_it_is_begun(self):
         rod = ROD / 'rod.stl'
         self.assertIn('larger cells', self.refused('polycube', rod, '--method', 'voxel', '--unit', '1e-9', '--blocks', 'b.k',

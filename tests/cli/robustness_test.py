@@ -119,15 +119,22 @@ class Robustness(CommandTest):
         self.assertGreater(len(codes), 0)
 
     def test_killed_while_writing_the_old_file_stays_whole(self):
-        (self.folder / 'grid.vtk').write_text(grid_text(40))
+        (self.folder / 'grid.vtk').write_text(grid_text(60))
         self.run_program('convert', 'grid.vtk', '-o', 'out.k')
         whole = (self.folder / 'out.k').read_bytes()
-        for delay in (0.02, 0.05, 0.1, 0.2):
+        unfinished = 0
+        for delay in (0.0, 0.01, 0.02, 0.05):
             process = subprocess.Popen([PROGRAM, 'convert', 'grid.vtk', '-o', 'out.k'], cwd=self.folder)
-            time.sleep(delay)
+            while not self.left_over() and process.poll() is None:
+                time.sleep(0.001)
+            time.sleep(delay)  # since it began to write
             process.kill()
             process.wait()
             self.assertEqual((self.folder / 'out.k').read_bytes(), whole)
+            for name in self.left_over():
+                unfinished += 0 < (self.folder / name).stat().st_size < len(whole)
+                (self.folder / name).unlink()
+        self.assertGreater(unfinished, 0)  # it was killed while writing
 
     def interrupt(self, arguments, after):
         """The message of a program that is interrupted after so many seconds, and how long it took to stop."""
