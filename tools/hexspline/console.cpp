@@ -13,7 +13,11 @@
 #include <atomic>
 #include <chrono>
 #include <cstdio>
+#include <exception>
+#include <new>
 #include <optional>
+#include <string_view>
+#include <system_error>
 #include <thread>
 
 namespace cli {
@@ -99,7 +103,49 @@ void take_time_after_interrupt() {
     finishing_takes_time() = true;
 }
 
+bool interrupted() {
+    // One that nobody has taken yet counts, too.
+    sigset_t waiting;
+    sigemptyset(&waiting);
+    sigpending(&waiting);
+    return interrupt().stop_requested() || sigismember(&waiting, SIGINT) == 1 ||
+           sigismember(&waiting, SIGTERM) == 1;
+}
+
+bool is_out_of_memory_or_threads(const std::exception& problem) {
+    if (dynamic_cast<const std::bad_alloc*>(&problem) != nullptr) return true;
+    if (const auto* of_system = dynamic_cast<const std::system_error*>(&problem))
+        return of_system->code() == std::errc::resource_unavailable_try_again ||
+               of_system->code() == std::errc::not_enough_memory;
+    // oneTBB names the call that failed.
+    return std::string_view(problem.what()).starts_with("pthread_");
+}
+
+void end_well_whatever_is_thrown() {
+    std::set_terminate([] {
+        hex::io::abandon_output_files();
+        const char* what = "an exception of unknown kind";
+        hex::ErrorKind kind = hex::ErrorKind::no_result;
+        try {
+            if (std::current_exception()) throw;
+        } catch (const std::exception& problem) {
+            if (is_out_of_memory_or_threads(problem)) kind = hex::ErrorKind::output;
+            what = problem.what();
+        } catch (...) {
+            // said above
+        }
+        if (kind == hex::ErrorKind::output)
+            std::fprintf(stderr, "hexspline: error: %s\n", out_of_memory_or_threads);
+        else
+            std::fprintf(stderr, "hexspline: error: internal error: %s\n", what);
+        _exit(hex::exit_code(kind));
+    });
+}
+
 void watch_interrupts(const std::string& name) {
+    signal(SIGPIPE, SIG_IGN);
+    // Files that get too large are an error of writing, as on a full disk.
+    signal(SIGXFSZ, SIG_IGN);
     sigset_t signals;
     sigemptyset(&signals);
     sigaddset(&signals, SIGINT);
@@ -112,19 +158,15 @@ void watch_interrupts(const std::string& name) {
         sigwait(&signals, &number);
         interrupt().request_stop();
         // Not every library looks whether it should stop.
-        if (finishing_takes_time()) {
-            sigwait(&signals, &number);
-        } else {
-            const timespec patience{0, 500'000'000};
-            sigtimedwait(&signals, nullptr, &patience);
-        }
+        const timespec patience{0, 500'000'000};
+        const bool again = sigtimedwait(&signals, nullptr, &patience) > 0;
+        if (!again && finishing_takes_time()) sigwait(&signals, &number);
         hex::io::abandon_output_files();
         if (may_tell_of_interruption())
             std::fprintf(stderr, "hexspline%s%s: error: interrupted\n", name.empty() ? "" : " ",
                          name.c_str());
         _exit(hex::exit_code(hex::ErrorKind::cancelled));
     }).detach();
-    signal(SIGPIPE, SIG_IGN);
 }
 
 struct Console::State {

@@ -4,6 +4,7 @@
 
 #include <hex/base/context.h>
 
+#include <exception>
 #include <memory>
 #include <string>
 
@@ -17,14 +18,26 @@ struct ConsoleOptions {
     int threads = 0;    ///< 0 = all cores
 };
 
-/// Turns Ctrl-C into a request to stop, shown by Context::stop. Who does not follow it in time, or gets a
-/// second one, is ended, without unfinished files. Call once, before any thread is started. \param name put
-/// in front of the message
+/// Turns Ctrl-C into a request to stop, shown by Context::stop. Who does not follow it in half a second, or
+/// gets a second one, is ended, without unfinished files. A pipe that nobody reads and a file that gets too
+/// large become errors of writing. Call once, before any thread is started; throws std::system_error when
+/// there is no memory for a thread. \param name put in front of the message
 void watch_interrupts(const std::string& name);
+/// Whether Ctrl-C was pressed.
+bool interrupted();
 /// Whether nobody has told of the interruption yet; true for the first who asks, who then tells.
 bool may_tell_of_interruption();
-/// From now on one Ctrl-C is a request to finish, which may take a while.
+/// The result is there and is being written: from now on only a second Ctrl-C ends the program before it is.
 void take_time_after_interrupt();
+
+/// What is thrown where nobody can catch it (in a thread of a library, say) ends the program like any error:
+/// one line, an exit code, no unfinished files.
+void end_well_whatever_is_thrown();
+/// Whether an exception of the standard library or of oneTBB says that there is no more memory, or that no
+/// more threads may be started, which is what too little memory for their stacks looks like.
+bool is_out_of_memory_or_threads(const std::exception& problem);
+inline constexpr const char* out_of_memory_or_threads =
+    "out of memory, or of threads that may be started; raise the limit (ulimit -v, ulimit -u)";
 
 class Console {
   public:

@@ -9,7 +9,8 @@
 
 #include <cstdio>
 #include <iostream>
-#include <new>
+#include <string>
+#include <vector>
 
 namespace {
 
@@ -35,6 +36,34 @@ int report(const std::string& command, std::string message, int code) {
     return code;
 }
 
+/// Runs `work` and turns what it throws into one line and an exit code.
+template <class Work>
+int guarded(const std::string& name, const Work& work) {
+    try {
+        return work();
+    } catch (const hex::Error& error) {
+        if (error.kind() == hex::ErrorKind::cancelled && !cli::may_tell_of_interruption())
+            return hex::exit_code(error.kind());
+        return report(name, error.what(), hex::exit_code(error.kind()));
+    } catch (const std::exception& problem) {
+        if (cli::is_out_of_memory_or_threads(problem))
+            return report(name, cli::out_of_memory_or_threads, hex::exit_code(hex::ErrorKind::output));
+        return report(name, std::string("internal error: ") + problem.what(),
+                      hex::exit_code(hex::ErrorKind::no_result));
+    } catch (...) {
+        // A plug-in may throw anything.
+        return report(name, "internal error: an exception of unknown kind",
+                      hex::exit_code(hex::ErrorKind::no_result));
+    }
+}
+
+/// The exit code of a command that has done its work, which may be just when it was told to stop.
+int unless_interrupted(const std::string& name, int code) {
+    const int cancelled = hex::exit_code(hex::ErrorKind::cancelled);
+    if (code == cancelled || !cli::interrupted()) return code;
+    return cli::may_tell_of_interruption() ? report(name, "interrupted", cancelled) : cancelled;
+}
+
 int dispatch(const std::vector<std::string>& arguments) {
     if (arguments.empty()) {
         print_help(std::cerr);
@@ -51,22 +80,9 @@ int dispatch(const std::vector<std::string>& arguments) {
     }
     for (const auto& command : cli::commands()) {
         if (command.name != name) continue;
-        try {
-            return run_command(command, {arguments.begin() + 1, arguments.end()});
-        } catch (const hex::Error& error) {
-            if (error.kind() == hex::ErrorKind::cancelled && !cli::may_tell_of_interruption())
-                return hex::exit_code(error.kind());
-            return report(name, error.what(), hex::exit_code(error.kind()));
-        } catch (const std::bad_alloc&) {
-            return report(name, "out of memory", hex::exit_code(hex::ErrorKind::output));
-        } catch (const std::exception& problem) {
-            return report(name, std::string("internal error: ") + problem.what(),
-                          hex::exit_code(hex::ErrorKind::no_result));
-        } catch (...) {
-            // A plug-in may throw anything.
-            return report(name, "internal error: an exception of unknown kind",
-                          hex::exit_code(hex::ErrorKind::no_result));
-        }
+        return guarded(name, [&] {
+            return unless_interrupted(name, run_command(command, {arguments.begin() + 1, arguments.end()}));
+        });
     }
     return report("", "unknown subcommand '" + name + "'; see hexspline --help", 2);
 }
@@ -74,8 +90,11 @@ int dispatch(const std::vector<std::string>& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-    cli::watch_interrupts(argc > 1 ? argv[1] : "");
-    const int code = dispatch({argv + 1, argv + argc});
+    cli::end_well_whatever_is_thrown();
+    const int code = guarded("", [&] {
+        cli::watch_interrupts(argc > 1 ? argv[1] : "");
+        return dispatch({argv + 1, argv + argc});
+    });
     std::cout.flush();
     // A result that could not be printed is a result that was not delivered.
     if (code == 0 && !std::cout)
