@@ -100,6 +100,50 @@ class Plugin(unittest.TestCase):
                 self.assertIn(str(library), done.stderr)
                 self.assertIn(words, done.stderr)
 
+    @unittest.skipIf(shutil.which('c++') is None, 'no compiler')
+    def test_plugins_that_crash_while_they_are_loaded_are_refused_in_one_line(self):
+        entry = ('struct Info { int version; const char* name; const char* text; void (*run)(); };\n'
+                 'extern "C" __attribute__((visibility("default"))) const Info hexspline_plugin;\n'
+                 'extern "C" const Info hexspline_plugin = {1, "faulty", "1.0", run};\n')
+        nothing = 'static void run() {}\n' + entry
+        for name, code, words in (
+                ('throws', '#include <stdexcept>\nstatic int x = (throw std::runtime_error("no luck"), 1);\n' + nothing, 'Aborted'),
+                ('exits', '#include <cstdlib>\nstatic int x = (std::exit(0), 1);\n' + nothing, 'exit code 0'),
+                ('exits_later', '#include <cstdlib>\nstatic void run() { std::exit(7); }\n' + entry, 'exit code 7'),
+                ('wild', '#include <csignal>\nstatic void run() { std::raise(SIGSEGV); }\n' + entry, 'Segmentation fault'),
+                ('byte', 'extern "C" { __attribute__((visibility("default"))) char hexspline_plugin = 1; }\n', ''),
+                ('cut', nothing, ''), ('sound', nothing, None)):
+            source, library = self.folder / f'{name}.cpp', self.folder / f'{name}.so'
+            source.write_text(code)
+            subprocess.run(['c++', '-shared', '-fPIC', '-o', library, source], check=True)
+            if name == 'cut':
+                library.write_bytes(library.read_bytes()[:5000])
+            with self.subTest(fault=name):
+                done = run('plugins', '--plugin', library)
+                if words is None:
+                    self.assertEqual((done.returncode, done.stderr), (0, ''))
+                    continue
+                self.assertEqual(done.returncode, 3, done.stderr)
+                self.assertEqual(done.stdout, '')
+                self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+                self.assertIn(str(library), done.stderr)
+                self.assertIn(words, done.stderr)
+
+    @unittest.skipIf(shutil.which('c++') is None, 'no compiler')
+    def test_a_plugin_that_never_comes_back_is_refused(self):
+        source, library = self.folder / 'waits.cpp', self.folder / 'waits.so'
+        source.write_text('#include <unistd.h>\nstatic int x = pause();\n')
+        subprocess.run(['c++', '-shared', '-fPIC', '-o', library, source], check=True)
+        done = run('plugins', '--plugin', library)
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertIn('10 seconds', done.stderr)
+
+    def test_in_the_plugin_path_is_a_pipe(self):
+        os.mkfifo(self.folder / 'pipe.so')
+        done = run('plugins', HEXSPLINE_PLUGIN_PATH=str(self.folder))
+        self.assertEqual(done.returncode, 3, done.stderr)
+        self.assertIn('pipe.so', done.stderr)
+
     def test_it_cannot_be_loaded_twice(self):
         copy = self.folder / 'copy.so'
         shutil.copy(PLUGIN, copy)

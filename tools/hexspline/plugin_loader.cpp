@@ -1,6 +1,7 @@
 #include "hexspline/plugin_loader.h"
 
 #include <hex/base/error.h>
+#include <hex/base/isolated.h>
 #include <hex/base/plugin.h>
 #include <hex/base/registry.h>
 
@@ -38,8 +39,18 @@ class OriginGuard {
     std::string before_;
 };
 
-void load_plugin(const std::string& file) {
-    if (!std::filesystem::exists(file)) reject(file, "there is no such plug-in");
+/// A pipe or a device would keep the loader waiting.
+void require_regular_file(const std::string& file) {
+    std::error_code problem;
+    const auto status = std::filesystem::status(file, problem);
+    if (status.type() == std::filesystem::file_type::not_found) reject(file, "there is no such plug-in");
+    if (!std::filesystem::status_known(status))
+        reject(file, "cannot be opened as a plug-in (" + problem.message() + ")");
+    if (!std::filesystem::is_regular_file(status)) reject(file, "is no plug-in, not even a regular file");
+}
+
+/// Loads the library and lets it register its methods. Throws hex::Error{bad_input}.
+void open_plugin(const std::string& file) {
     const OriginGuard origin(file);
     boost::dll::shared_library library;
     try {
@@ -65,6 +76,36 @@ void load_plugin(const std::string& file) {
         reject(file, "failed to register its methods");
     }
     loaded_libraries().push_back(std::move(library));
+}
+
+/// Opens the plug-in in a process of its own: one that crashes there, ends the process or never comes back
+/// is refused instead of taking the program with it. Throws hex::Error{bad_input}, and Error{output} when no
+/// process can be made.
+void try_plugin(const std::string& file) {
+    constexpr unsigned patience = 10;
+    constexpr char separator = '\0';
+    const auto outcome = hex::run_isolated(
+        [&]() -> std::string {
+            try {
+                open_plugin(file);
+                return {};
+            } catch (const hex::Error& error) {
+                return error.problem() + separator + error.advice();
+            } catch (const std::exception& problem) {
+                return std::string("cannot be loaded as a plug-in: ") + problem.what() + separator;
+            }
+        },
+        {.processor_seconds = 0, .seconds = patience});
+    if (!outcome.failure.empty()) reject(file, "fails while it is loaded as a plug-in: " + outcome.failure);
+    if (outcome.bytes.empty()) return;
+    const auto end = outcome.bytes.find(separator);
+    reject(file, outcome.bytes.substr(0, end), outcome.bytes.substr(end + 1));
+}
+
+void load_plugin(const std::string& file) {
+    require_regular_file(file);
+    try_plugin(file);
+    open_plugin(file);
 }
 
 std::vector<std::string> plugins_of_path() {

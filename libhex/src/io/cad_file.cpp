@@ -1,10 +1,10 @@
 #include "io/cad_message.h"
 #include "io/cad_shape.h"
 #include "io/input_file.h"
-#include "io/isolated.h"
 #include "io/long_edges.h"
 
 #include <hex/base/error.h>
+#include <hex/base/isolated.h>
 #include <hex/io/cad_file.h>
 #include <hex/io/mesh_file.h>
 
@@ -139,7 +139,10 @@ CadTriangles tessellate_safely(CadFormat format, const InputFile& file, const st
                             "export the model again");
         }
     };
-    return from_bytes(run_isolated(work, seconds));
+    const IsolatedResult result = run_isolated(work, {.processor_seconds = seconds, .seconds = 0});
+    if (!result.failure.empty())
+        throw Error(ErrorKind::bad_input, "is damaged: reading it fails", {}, "export the model again");
+    return from_bytes(result.bytes);
 }
 
 double diagonal_of(const std::vector<Vec3>& points) {
