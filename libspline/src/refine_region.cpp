@@ -1,12 +1,13 @@
 #include <hex/base/error.h>
 #include <hex/base/parallel.h>
 #include <hex/io/number_text.h>
+#include <hex/io/text_file.h>
 #include <hex/quality/scaled_jacobian.h>
 #include <spline/refine_region.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
+#include <limits>
 #include <numeric>
 #include <sstream>
 
@@ -99,8 +100,7 @@ std::vector<double> numbers_of(const std::string& list, std::size_t count, const
 }
 
 void read_places(const std::string& path, RefineRegion& region) {
-    std::ifstream file(path);
-    if (!file) throw Error(ErrorKind::bad_input, "cannot be opened", path);
+    std::istringstream file(hex::io::read_text_file(path));
     std::size_t number = 0;
     for (std::string line; std::getline(file, line);) {
         ++number;
@@ -111,9 +111,10 @@ void read_places(const std::string& path, RefineRegion& region) {
         const std::string place = path + ":" + std::to_string(number);
         if (fields.size() == 1) {
             const auto patch = hex::io::parse_integer(fields[0]);
-            if (!patch || *patch < 0)
+            if (!patch || *patch < 0 || *patch > std::numeric_limits<std::int32_t>::max())
                 throw Error(ErrorKind::bad_input, "'" + fields[0] + "' is no patch number", place);
             region.patches.push_back(static_cast<std::int32_t>(*patch));
+            region.patch_places.push_back(place);
             continue;
         }
         if (fields.size() != 3)
@@ -135,6 +136,18 @@ void read_places(const std::string& path, RefineRegion& region) {
 }
 
 }  // namespace
+
+void require_patches(const RefineRegion& region, const LevelMesh& coarsest) {
+    const auto& known = coarsest.patch_of_quad;
+    for (std::size_t i = 0; i < region.patches.size(); ++i) {
+        if (std::find(known.begin(), known.end(), region.patches[i]) != known.end()) continue;
+        const auto count = known.empty() ? 0 : *std::max_element(known.begin(), known.end()) + 1;
+        throw Error(ErrorKind::bad_input,
+                    "there is no patch " + std::to_string(region.patches[i]) + "; there are " +
+                        std::to_string(count) + ", counted from 0",
+                    i < region.patch_places.size() ? region.patch_places[i] : std::string());
+    }
+}
 
 std::vector<std::int64_t> elements_in(const RefineRegion& region, const LevelMesh& level,
                                       std::size_t domain_cells) {

@@ -60,7 +60,10 @@ LevelMesh input_level(const hex::HexMesh& mesh, const SplineOptions& options) {
 Hierarchy refine(LevelMesh coarsest, const SplineOptions& options, const hex::Context& context) {
     try {
         int deepest = 0;
-        for (const RefineRegion& region : options.regions) deepest = std::max(deepest, region.level);
+        for (const RefineRegion& region : options.regions) {
+            require_patches(region, coarsest);
+            deepest = std::max(deepest, region.level);
+        }
         if (deepest == 0)
             return build_hierarchy(std::move(coarsest), options.refinement, options.closure, context);
         auto lists = options.refinement;

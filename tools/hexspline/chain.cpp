@@ -9,6 +9,7 @@
 #include <hex/io/list_file.h>
 #include <hex/io/output_file.h>
 #include <hex/io/surface_file.h>
+#include <hex/io/text_file.h>
 #include <hex/polycube/polycube.h>
 #include <hex/surface/polygon_soup.h>
 #include <spline/io/bext.h>
@@ -19,7 +20,6 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <optional>
 #include <sstream>
 #include <vector>
@@ -46,10 +46,15 @@ std::vector<std::string> split_list(const std::string& text) {
     return items;
 }
 
+bool is_there(const std::filesystem::path& file) {
+    std::error_code unknown;
+    return std::filesystem::exists(std::filesystem::symlink_status(file, unknown));
+}
+
 /// The route that an earlier run into this folder took, if it can be told.
 std::optional<hex::Route> route_of_report(const std::filesystem::path& file) {
-    std::ifstream stream(file);
-    const Json report = Json::parse(stream, nullptr, false);
+    if (!is_there(file)) return {};
+    const Json report = Json::parse(hex::io::read_text_file(file), nullptr, false);
     if (!report.is_object() || !report.contains("route")) return {};
     for (const hex::Route route : {hex::Route::given, hex::Route::labelling, hex::Route::voxel})
         if (report["route"] == hex::name_of(route)) return route;
@@ -275,7 +280,7 @@ void Chain::load_blocks() {
     std::filesystem::path file = folder_ / "2-blocks.k";
     if (line_.given("blocks"))
         file = line_.get<std::string>("blocks");
-    else if (!std::filesystem::exists(file))
+    else if (!is_there(file))
         throw hex::Error(hex::ErrorKind::usage, "there are no blocks to map", {}, "give them with --blocks");
     model_.blocks = load_hexahedra(line_, file);
 }
@@ -283,8 +288,7 @@ void Chain::load_blocks() {
 void Chain::load_patches() {
     if (model_.patches || model_.route == hex::Route::voxel) return;
     std::filesystem::path file = folder_ / "2-patches.k";
-    if (!std::filesystem::exists(file) && line_.given("segmentation"))
-        file = line_.get<std::string>("segmentation");
+    if (!is_there(file) && line_.given("segmentation")) file = line_.get<std::string>("segmentation");
     model_.patches = load_triangles(line_, file);
 }
 
@@ -300,8 +304,14 @@ void Chain::write(hex::HexStage stage, const hex::HexModel& model) const {
                 if (!is_given("segmentation", folder_ / "2-patches.k"))
                     hex::io::write_surface(folder_ / "2-patches.k", hex::to_soup(*model.patches));
             } else {
-                for (const char* name : {"2-polycube.k", "2-patches.k"})
-                    std::filesystem::remove(folder_ / name);
+                for (const char* name : {"2-polycube.k", "2-patches.k"}) {
+                    std::error_code problem;
+                    std::filesystem::remove(folder_ / name, problem);
+                    if (problem)
+                        throw hex::Error(hex::ErrorKind::output,
+                                         "cannot be removed (" + problem.message() + ")",
+                                         (folder_ / name).string());
+                }
             }
             if (model.blocks && !is_given("blocks", folder_ / "2-blocks.k"))
                 hex::io::write_hex_mesh(folder_ / "2-blocks.k", *model.blocks);

@@ -2,11 +2,11 @@
 
 #include <hex/base/error.h>
 #include <hex/io/number_text.h>
+#include <hex/io/text_file.h>
 
 #include <nlohmann/json.hpp>
 
 #include <algorithm>
-#include <fstream>
 
 namespace cli {
 namespace {
@@ -113,13 +113,9 @@ class ConfigReader {
     }
 
     Json parse() const {
-        std::error_code ignored;
-        if (std::filesystem::is_directory(file_, ignored)) fail("is a directory, not a file");
-        if (!std::filesystem::is_regular_file(file_, ignored)) fail("no such file");
-        std::ifstream stream(file_);
-        if (!stream) fail("cannot be opened");
+        const std::string text = hex::io::read_text_file(file_);
         try {
-            return Json::parse(stream);
+            return Json::parse(text);
         } catch (const Json::exception& problem) {
             fail(std::string("is not JSON: ") + problem.what());
         }

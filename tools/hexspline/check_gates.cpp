@@ -1,12 +1,12 @@
 #include "hexspline/check_gates.h"
 
 #include <hex/base/error.h>
+#include <hex/io/text_file.h>
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 
 namespace cli {
 namespace {
@@ -94,11 +94,9 @@ std::size_t count_defects(const hex::MeshDefects& defects, std::string_view kind
 class Baseline {
   public:
     Baseline(std::filesystem::path file, double tolerance) : file_(std::move(file)), tolerance_(tolerance) {
-        std::error_code ignored;
-        if (!std::filesystem::is_regular_file(file_, ignored)) fail("no such file");
-        std::ifstream stream(file_);
+        const std::string text = hex::io::read_text_file(file_);
         try {
-            report_ = Json::parse(stream);
+            report_ = Json::parse(text);
         } catch (const Json::exception& problem) {
             fail(std::string("is not JSON: ") + problem.what());
         }

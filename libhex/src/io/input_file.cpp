@@ -1,6 +1,7 @@
 #include "io/input_file.h"
 
 #include <hex/base/parallel.h>
+#include <hex/io/text_file.h>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -98,6 +99,11 @@ std::string InputFile::line_place(std::size_t position) const {
 
 std::string InputFile::byte_place(std::size_t position) const {
     return name_ + ":byte " + std::to_string(position);
+}
+
+std::string read_text_file(const std::filesystem::path& path) {
+    const InputFile file(path);
+    return std::string(file.bytes().substr(file.text_start()));
 }
 
 std::string in_quotes(std::string_view text) {

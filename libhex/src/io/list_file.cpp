@@ -123,6 +123,18 @@ std::vector<std::int64_t> read_sharp_vertices(const std::filesystem::path& path)
     return vertices;
 }
 
+std::vector<std::array<std::int64_t, 2>> read_edge_list(const std::filesystem::path& path) {
+    const InputFile file(path);
+    std::vector<std::array<std::int64_t, 2>> edges;
+    for_each_line(file, [&](const Line& line) {
+        require_words(file, line, 2, "two vertices");
+        const long long a = not_negative(file, line, integer(file, line, 0, "a vertex"), "vertex");
+        const long long b = not_negative(file, line, integer(file, line, 1, "a vertex"), "vertex");
+        edges.push_back({a, b});
+    });
+    return edges;
+}
+
 std::vector<std::vector<std::int64_t>> read_refinement(const std::filesystem::path& path) {
     // Every level halves the elements: deeper ones cannot be meant.
     constexpr long long deepest = 30;

@@ -28,14 +28,18 @@ struct RefineRegion {
     double radius = 0.0;
     std::vector<hex::Vec3> points;
     std::vector<std::int32_t> patches;
-    double share = 0.0;  ///< in (0, 1]
-    int level = 1;       ///< elements are divided until they are of this level, >= 1
+    std::vector<std::string> patch_places;  ///< `file:line` of each patch, for messages; may be empty
+    double share = 0.0;                     ///< in (0, 1]
+    int level = 1;                          ///< elements are divided until they are of this level, >= 1
 };
 
 /// The elements (0-based, ascending) of the first `domain_cells` of a level that a region asks to divide.
 /// None for `worst_fit`.
 std::vector<std::int64_t> elements_in(const RefineRegion& region, const LevelMesh& level,
                                       std::size_t domain_cells);
+
+/// Throws Error{bad_input} when the region names a patch that level 0 does not have.
+void require_patches(const RefineRegion& region, const LevelMesh& coarsest);
 
 /// Parses `box:x0,y0,z0,x1,y1,z1[:level]`, `sphere:x,y,z,radius[:level]`, `near:FILE[:level]`,
 /// `worst:N%[:level]`, `worst-fit:N%[:level]`. FILE has a point `x y z` or a 0-based patch number on each

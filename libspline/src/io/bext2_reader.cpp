@@ -1,6 +1,7 @@
 #include "text_input.h"
 
 #include <hex/base/error.h>
+#include <hex/io/text_file.h>
 #include <spline/io/bext2.h>
 
 #include <algorithm>
@@ -179,7 +180,7 @@ std::size_t Bext2::vector_count() const {
 }
 
 Bext2 read_bext2(const std::filesystem::path& path) {
-    const std::string text = read_whole(path);
+    const std::string text = hex::io::read_text_file(path);
     return Reader(path, text).read();
 }
 

@@ -1,6 +1,7 @@
 #include "text_input.h"
 
 #include <hex/base/error.h>
+#include <hex/io/text_file.h>
 #include <spline/io/bext.h>
 #include <spline/io/bext2.h>
 
@@ -141,7 +142,7 @@ class Reader {
 }  // namespace
 
 BezierSpline read_bext(const std::filesystem::path& path) {
-    const std::string text = read_whole(path);
+    const std::string text = hex::io::read_text_file(path);
     try {
         if (text.starts_with("B E X T 2")) return to_spline(read_bext2(path));
     } catch (const hex::Error& error) {

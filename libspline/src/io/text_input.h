@@ -13,9 +13,6 @@
 
 namespace spline::io {
 
-/// All bytes of a file; throws Error{bad_input}.
-std::string read_whole(const std::filesystem::path& path);
-
 /// The words of a text, with their line for messages: separated by blanks. With `comments` a line that starts
 /// with '$' is left out.
 class Words {

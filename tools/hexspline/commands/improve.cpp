@@ -12,13 +12,10 @@
 #include <hex/improve/improve.h>
 #include <hex/io/hex_file.h>
 #include <hex/io/list_file.h>
-#include <hex/io/number_text.h>
 #include <hex/io/output_file.h>
 
 #include <array>
-#include <fstream>
 #include <optional>
-#include <sstream>
 #include <utility>
 
 namespace cli {
@@ -117,25 +114,10 @@ EdgeList patch_borders(const hex::TriangleMesh& mesh) {
     return edges;
 }
 
+/// A file that lists no edge would otherwise be taken for none at all.
 EdgeList read_edges(const std::filesystem::path& file) {
-    std::ifstream stream(file);
-    if (!stream) throw hex::Error(hex::ErrorKind::bad_input, "the file cannot be read", file.string());
-    EdgeList edges;
-    int number = 0;
-    for (std::string text; std::getline(stream, text);) {
-        ++number;
-        std::istringstream words(text);
-        std::string first, second, more;
-        if (!(words >> first)) continue;
-        words >> second;
-        const auto a = hex::io::parse_integer(first);
-        const auto b = hex::io::parse_integer(second);
-        if (!a || !b || words >> more)
-            throw hex::Error(hex::ErrorKind::bad_input, "not two vertices",
-                             file.string() + ":" + std::to_string(number),
-                             "an edge is two numbers of vertices");
-        edges.push_back({*a, *b});
-    }
+    EdgeList edges = hex::io::read_edge_list(file);
+    if (edges.empty()) throw hex::Error(hex::ErrorKind::bad_input, "lists no edge", file.string());
     return edges;
 }
 
@@ -226,10 +208,8 @@ int run(CommandLine& line) {
         try {
             // Interrupted, these end with the best mesh found until then; the others with nothing.
             hex::Context context = line.context();
-            if (options.method == "untangle" || options.method == "auto") {
-                take_time_after_interrupt();
+            if (options.method == "untangle" || options.method == "auto")
                 options.finish = std::exchange(context.stop, std::stop_token());
-            }
             return hex::improve(mesh, options, context);
         } catch (const hex::Error& error) {
             // What is wrong with a valid mesh's input is the list of sharp vertices.
@@ -239,6 +219,7 @@ int run(CommandLine& line) {
             throw error.located((list ? sharp_file(line) : line.input()).string());
         }
     }();
+    if (options.finish.stop_possible()) take_time_after_interrupt();
     hex::io::write_hex_mesh(line.output(), result.mesh);
     if (line.given("features-out"))
         write_edges(line.get<std::string>("features-out"), result.report.feature_edges);

@@ -30,6 +30,9 @@ std::vector<LabelOverride> read_overrides(const std::filesystem::path& path, int
 /// sharp.txt: the last integer on each line is a 0-based vertex index (pasted from ParaView's spreadsheet).
 std::vector<std::int64_t> read_sharp_vertices(const std::filesystem::path& path);
 
+/// Lines `a b`: an edge between two 0-based vertices.
+std::vector<std::array<std::int64_t, 2>> read_edge_list(const std::filesystem::path& path);
+
 /// lev_rfid.txt: lines `level element`, both 0-based; result[level] lists the elements in file order.
 std::vector<std::vector<std::int64_t>> read_refinement(const std::filesystem::path& path);
 
