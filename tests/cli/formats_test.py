@@ -78,6 +78,33 @@ class Formats(CommandTest):
         self.assertIn('*ELSET, ELSET=lower\n1\n', text)
         self.assertIn('*ELSET, ELSET=Upper\n2\n', text)
 
+    def test_names_of_parts_that_are_lost_are_counted(self):
+        (self.folder / 'part.inp').write_text(ABAQUS)
+        self.assertEqual(self.run_program('convert', 'part.inp', '-o', 'part.k').stderr, '')
+        self.run_program('convert', 'part.k', '-o', 'again.inp')
+        self.assertIn('*ELSET, ELSET=Upper\n2\n', (self.folder / 'again.inp').read_text())
+        for name in ('part.vtk', 'part.vtu', 'part.mesh', 'part.mfem', 'part.ovm'):
+            message, = self.run_program('convert', 'part.inp', '-o', name).stderr.splitlines()
+            self.assertRegex(message, f'warning: {name}: .* no names of parts; those of 2 are lost')
+
+    def test_part_0_is_no_physical_group_of_gmsh(self):
+        self.make_mesh()
+        lines = self.vtk_text('a.vtk').splitlines()
+        start = next(i for i, line in enumerate(lines) if line.startswith('LOOKUP_TABLE')) + 1
+        lines[start:start + 3] = ['0'] * 3
+        (self.folder / 'zero.vtk').write_text('\n'.join(lines) + '\n')
+        for name in ('zero.msh', 'zero.msh2'):
+            self.run_program('convert', 'zero.vtk', '-o', name)
+            self.run_program('convert', name, '-o', 'back.vtk')
+            self.assertEqual(self.vtk_text('back.vtk'), self.vtk_text('zero.vtk'))
+            if shutil.which('gmsh'):
+                done = subprocess.run(['gmsh', name, '-save', '-save_all', '-format', 'msh41', '-o', 'theirs.msh'], cwd=self.folder,
+                                      stdin=subprocess.DEVNULL, capture_output=True, text=True)
+                self.assertNotIn('Error', done.stdout + done.stderr)
+                self.run_program('convert', 'theirs.msh', '-o', 'theirs.vtu')
+        message = self.run_program('convert', 'zero.vtk', '-o', 'zero.mfem', code=3).stderr
+        self.assertRegex(message, r'hexahedra 0, 1, 2 have .*; .*write another format')
+
     def test_labels(self):
         self.run_program('convert', ROD / 'rod_patches.k', '-o', 'labels.txt')
         labels = (self.folder / 'labels.txt').read_text().split()

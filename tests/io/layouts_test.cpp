@@ -294,6 +294,33 @@ TEST(LegacyVtk, BinaryDataMayStartWithBlanks) {
 
 // --- the others ---
 
+TEST(LsDyna, TitlesOfPartsAreTheirNames) {
+    const auto file = surface_of(
+        ".k",
+        "*KEYWORD\n*PART\n$# title\nshaft, left\n$#     pid     secid       mid\n         4         1       "
+        "  1\n*PART\n\n         5         1         1\n*PART\nnot here\n9,1,1\n" +
+            fixed_shells + fixed_nodes + "*END\n");
+    expect_square(file.soup);
+    EXPECT_EQ(file.part_names, (PartNames{{4, "shaft, left"}}));
+    EXPECT_TRUE(file.diagnostics.empty());
+    // Several parts under one keyword.
+    EXPECT_EQ(
+        surface_of(".k", "*KEYWORD\n*PART\na\n4,1,1\n5 is b\n5\n" + fixed_shells + fixed_nodes + "*END\n")
+            .part_names,
+        (PartNames{{4, "a"}, {5, "5 is b"}}));
+}
+
+TEST(LsDyna, ManyWarningsOfOneKindAreCounted) {
+    std::string unknown;
+    for (int i = 0; i < 500; ++i) unknown += "*FOO_" + std::to_string(i) + "\n1,2\n";
+    const auto file = surface_of(".k", "*KEYWORD\n" + unknown + fixed_shells + fixed_nodes);
+    ASSERT_EQ(file.diagnostics.size(), 22u);
+    EXPECT_EQ(file.diagnostics.front().code, "no-end");
+    EXPECT_NE(file.diagnostics.back().message.find("a.k: 480 more findings of this kind (unknown-keyword)"),
+              std::string::npos)
+        << file.diagnostics.back().message;
+}
+
 TEST(Obj, SlashesNegativeIndicesContinuationsAndComments) {
     const auto file = surface_of(
         ".obj",
@@ -331,6 +358,27 @@ const std::string ply_header =
     "element vertex 4\ncomment c\nproperty float x\nproperty uchar red\nproperty double y\nproperty float z\n"
     "element edge 1\nproperty int vertex1\nproperty int vertex2\nelement face 2\nproperty list uchar int "
     "vertex_indices\nproperty short part\nend_header\n";
+
+TEST(Off, TextAfterTheLastFaceIsWarnedOf) {
+    const auto file =
+        surface_of(".off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2 # a comment\n\nmore stuff\n");
+    ASSERT_EQ(file.diagnostics.size(), 1u);
+    EXPECT_EQ(file.diagnostics[0].code, "extra-text");
+    EXPECT_NE(file.diagnostics[0].message.find("a.off:8: text after the last face is skipped: 'more stuff'"),
+              std::string::npos)
+        << file.diagnostics[0].message;
+}
+
+TEST(Surfaces, FacesThatNameAPointTwiceAreWarnedOf) {
+    const std::string points = "0 0 0\n1 0 0\n0 1 0\n";
+    for (const auto& file : {surface_of(".off", "OFF\n3 2 0\n" + points + "3 0 1 2\n3 0 0 1\n"),
+                             surface_of(".obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 2 1 2\n")}) {
+        ASSERT_EQ(file.diagnostics.size(), 1u);
+        EXPECT_EQ(file.diagnostics[0].code, "repeated-corners");
+        EXPECT_EQ(file.diagnostics[0].ids, (std::vector<std::int64_t>{1}));
+        EXPECT_EQ(file.soup.size(), 2u);
+    }
+}
 
 TEST(Ply, AsciiWithExtraElementsAndProperties) {
     const auto file =

@@ -203,6 +203,8 @@ const std::vector<Malformed> cases = {
     {"mfem_header", ".mfem", "mesh\n", ":1", "not a mesh of MFEM"},
     {"mfem_nurbs", ".mfem", "MFEM NURBS mesh v1.0\n", ":1", "NURBS", ErrorKind::unsupported},
     {"mfem_index", ".mfem", mfem + "1 2 0 1 3\nvertices\n3\n3\n0 0 0\n1 0 0\n0 1 0\n", ":6", "vertex 3"},
+    {"mfem_attribute", ".mfem", mfem + "0 2 0 1 2\nvertices\n3\n3\n0 0 0\n1 0 0\n0 1 0\n", ":6",
+     "attribute 0"},
     {"mfem_prism", ".mfem", mfem + "1 6 0 1 2 3 4 5\n", ":6", "type 6", ErrorKind::unsupported},
     {"mfem_no_vertices", ".mfem", mfem + "1 2 0 1 2\n", ":6", "no vertices"},
     {"mfem_plane", ".mfem", mfem + "1 2 0 1 2\nvertices\n3\n2\n0 0\n1 0\n0 1\n", ":9", "2 coordinates",

@@ -205,6 +205,38 @@ TEST(PartNames, SurviveWhereTheTableSaysSo) {
     }
 }
 
+TEST(PartIds, ZeroAndNegativeSurviveOrTheElementsAreNamed) {
+    const TemporaryFolder folder;
+    const HexMesh grid = test::grid(3, 1, 1);
+    for (const int odd : {0, -7}) {
+        const HexMesh mesh({grid.positions().begin(), grid.positions().end()},
+                           {grid.cell_array().begin(), grid.cell_array().end()}, {2, odd, 1});
+        PolygonSoup soup = test::box_surface(1, 1, 1);
+        soup.parts[1] = odd;
+        for (const FormatInfo& info : formats()) {
+            const auto path = file(folder, "p", info.extensions.front());
+            const bool carries = info.name != "MFEM" && (odd == 0 || !info.name.starts_with("Gmsh"));
+            if (!info.writes_hexahedra) continue;
+            if (carries) {
+                write_hex_mesh(path, mesh);
+                EXPECT_EQ(read_hex_mesh(path).mesh.part(CellId(1)), odd) << info.name;
+                EXPECT_EQ(read_hex_mesh(path).mesh.part(CellId(0)), 2) << info.name;
+                write_surface(path, soup);
+                EXPECT_EQ(read_surface(path).soup.parts, soup.parts) << info.name;
+                continue;
+            }
+            try {
+                write_hex_mesh(path, mesh);
+                FAIL() << info.name;
+            } catch (const Error& error) {
+                EXPECT_NE(error.problem().find("hexahedra 1 have"), std::string::npos) << error.what();
+                EXPECT_NE(error.advice().find("another format"), std::string::npos) << error.what();
+            }
+            EXPECT_THROW(write_surface(path, soup), Error);
+        }
+    }
+}
+
 TEST(OutputName, MayBeAsLongAsTheFileSystemTakes) {
     const TemporaryFolder folder;
     const std::string name = std::string(251, 'n') + ".off";

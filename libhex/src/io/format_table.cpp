@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 namespace hex::io {
 namespace {
@@ -32,19 +33,9 @@ const std::vector<Format>& table() {
         // name, extensions, reads/writes surfaces, reads/writes hexahedra, part ids, names, corners, fields,
         // numbers
         std::vector<Format> list = {
-            {{"LS-DYNA keyword",
-              {".k", ".key"},
-              true,
-              true,
-              true,
-              true,
-              true,
-              false,
-              4,
-              false,
-              "text, exact"},
+            {{"LS-DYNA keyword", {".k", ".key"}, true, true, true, true, true, true, 4, false, "text, exact"},
              read_ls_dyna,
-             without_names<write_ls_dyna_surface>,
+             write_ls_dyna_surface,
              write_ls_dyna_hexahedra},
             {{"VTK legacy", {".vtk"}, true, true, true, true, true, false, 0, true, "text, exact"},
              read_legacy_vtk,
@@ -142,19 +133,55 @@ MeshData read_with(const Format& (*choose)(const std::filesystem::path&), const 
     return format.read(InputFile(path));
 }
 
+/// The first findings of each kind (their code), and how many more there were.
+Diagnostics shortened(Diagnostics&& diagnostics) {
+    constexpr std::size_t most = 20;
+    std::map<std::string, std::size_t> counts;
+    Diagnostics kept;
+    for (Diagnostic& finding : diagnostics)
+        if (++counts[finding.code] <= most) kept.push_back(std::move(finding));
+    for (const auto& [code, count] : counts)
+        if (count > most)
+            kept.push_back({Severity::warning,
+                            code,
+                            std::to_string(count - most) + " more findings of this kind (" + code + ")",
+                            {},
+                            {}});
+    return kept;
+}
+
 /// Messages of a reader stand for themselves: with the file, and the first line they are about.
-Diagnostics located(Diagnostics&& diagnostics, const std::filesystem::path& path) {
+Diagnostics located(Diagnostics&& all, const std::filesystem::path& path) {
+    Diagnostics diagnostics = shortened(std::move(all));
     for (Diagnostic& finding : diagnostics) {
         std::string message = path.string();
         if (finding.entity == "line" && !finding.ids.empty())
             message.append(":").append(std::to_string(finding.ids.front()));
         finding.message = message.append(": ").append(finding.message);
     }
-    return std::move(diagnostics);
+    return diagnostics;
 }
 
 std::string plural(std::size_t count, const char* one, const char* many) {
     return std::to_string(count) + " " + (count == 1 ? one : many);
+}
+
+/// The stages refuse such polygons; what only reads or converts a surface should say it, too.
+void warn_of_repeated_corners(MeshData& data) {
+    std::vector<std::int64_t> repeating;
+    std::vector<std::uint32_t> sorted;
+    for (std::size_t f = 0; f < data.surface.size(); ++f) {
+        const auto polygon = data.surface.polygon(f);
+        sorted.assign(polygon.begin(), polygon.end());
+        std::sort(sorted.begin(), sorted.end());
+        if (std::adjacent_find(sorted.begin(), sorted.end()) != sorted.end())
+            repeating.push_back(static_cast<std::int64_t>(f));
+    }
+    if (!repeating.empty())
+        data.warn("repeated-corners",
+                  plural(repeating.size(), "polygon names", "polygons name") +
+                      " a point twice: " + list_ids(repeating) + " (counted from 0); --repair removes such",
+                  "polygon", repeating);
 }
 
 SurfaceFile to_surface(MeshData&& data, const std::filesystem::path& path) {
@@ -168,6 +195,7 @@ SurfaceFile to_surface(MeshData&& data, const std::filesystem::path& path) {
     }
     if (!data.hexahedra.empty())
         data.warn("hexahedra-skipped", plural(data.hexahedra.size(), "hexahedron", "hexahedra") + " skipped");
+    warn_of_repeated_corners(data);
     return {std::move(data.surface), std::move(data.part_names), located(std::move(data.diagnostics), path)};
 }
 

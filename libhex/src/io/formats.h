@@ -14,7 +14,7 @@
 namespace hex::io {
 
 MeshData read_ls_dyna(const InputFile& file);
-void write_ls_dyna_surface(OutputFile& out, const PolygonSoup& soup);
+void write_ls_dyna_surface(OutputFile& out, const PolygonSoup& soup, const PartNames& names);
 void write_ls_dyna_hexahedra(OutputFile& out, const HexMesh& mesh, const Fields& fields);
 
 MeshData read_legacy_vtk(const InputFile& file);

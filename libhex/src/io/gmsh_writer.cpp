@@ -1,14 +1,14 @@
-// Writes Gmsh meshes, ASCII: one entity with one physical group a part. Element tags are the order of the
-// elements. Version 4.1 in .msh, 2.2 in .msh2.
+// Writes Gmsh meshes, ASCII: one entity with one physical group a part, part 0 without. Element tags are the
+// order of the elements. Version 4.1 in .msh, 2.2 in .msh2.
 #include "io/formats.h"
 #include "io/part_numbers.h"
 
-#include <hex/base/error.h>
 #include <hex/io/number_text.h>
 
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <vector>
 
 namespace hex::io {
 namespace {
@@ -44,18 +44,19 @@ std::string quoted(std::string name) {
     return '"' + name + '"';
 }
 
-/// Gmsh's tags of entities and groups are positive.
-void require_positive(int part) {
-    if (part < 1)
-        throw Error(ErrorKind::unsupported, "part id " + std::to_string(part) + " is not positive", {},
-                    "Gmsh knows only positive ones");
+/// 0 as the tag of a physical group is none.
+std::vector<int> groups_of(std::span<const int> parts) {
+    std::vector<int> groups(parts.begin(), parts.end());
+    std::erase(groups, 0);
+    return groups;
 }
 
 void append_header(std::string& text, const char* version, int dimension, std::span<const int> parts,
                    const PartNames& names) {
+    const std::vector<int> groups = groups_of(parts);
     text.append("$MeshFormat\n").append(version).append(" 0 8\n$EndMeshFormat\n$PhysicalNames\n");
-    append_row(text, parts.size());
-    for (const int part : parts) {
+    append_row(text, groups.size());
+    for (const int part : groups) {
         append_number(text, dimension);
         text += ' ';
         append_number(text, part);
@@ -67,9 +68,8 @@ void append_header(std::string& text, const char* version, int dimension, std::s
 std::vector<int> parts_of(const Elements& elements) {
     std::vector<int> parts;
     for (std::size_t e = 0; e < elements.count; ++e) parts.push_back(elements.part(e));
-    parts = distinct_parts(std::move(parts));
-    for (const int part : parts) require_positive(part);
-    return parts;
+    require_part_ids(parts, 0, elements.dimension == 2 ? "polygons" : "hexahedra", "Gmsh");
+    return distinct_parts(std::move(parts));
 }
 
 void append_corners(std::string& text, const Elements& elements, std::size_t e) {
@@ -131,8 +131,8 @@ void write_4(OutputFile& out, std::span<const Vec3> points, const Elements& elem
         append_point(text, box.lower);
         text += ' ';
         append_point(text, box.upper);
-        text += " 1 ";
-        append_number(text, part);
+        text += part == 0 ? " 0" : " 1 ";
+        if (part != 0) append_number(text, part);
         text += " 0\n";
     }
     text += "$EndEntities\n$Nodes\n";

@@ -2,6 +2,7 @@
 // programs.
 #include "io/formats.h"
 #include "io/id_map.h"
+#include "io/part_numbers.h"
 
 #include <hex/base/error.h>
 #include <hex/io/number_text.h>
@@ -10,6 +11,7 @@
 #include <array>
 #include <climits>
 #include <map>
+#include <set>
 #include <span>
 
 namespace hex::io {
@@ -115,8 +117,9 @@ class LsDynaReader {
             rest.remove_prefix(end == std::string_view::npos ? rest.size() : end + 1);
             ++line_;
             while (!line.empty() && is_blank(line.back())) line.remove_suffix(1);
-            if (line.empty() || line.front() == '$') continue;
-            if (line.front() == '*') {
+            // The title of a part may be blank.
+            if ((line.empty() && !part_title_next_) || line.starts_with('$')) continue;
+            if (line.starts_with('*')) {
                 ended = keyword(line);
             } else {
                 card(line);
@@ -131,7 +134,7 @@ class LsDynaReader {
     }
 
   private:
-    enum class Block { none, node, shell, solid, skipped };
+    enum class Block { none, node, shell, solid, part, skipped };
 
     [[noreturn]] void fail(const std::string& what, std::uint32_t line = 0,
                            ErrorKind kind = ErrorKind::bad_input) const {
@@ -144,6 +147,7 @@ class LsDynaReader {
             fail("the nodes of solid element " + std::to_string(pending_id_) + " are missing");
         const std::string word = upper_case(line.substr(0, line.find_first_of(" \t,(")));
         seen_keyword_ = true;
+        part_title_next_ = word == "*PART";
         if (word == "*END") return true;
         if (word == "*NODE") {
             block_ = Block::node;
@@ -151,12 +155,14 @@ class LsDynaReader {
             block_ = Block::shell;
         } else if (word == "*ELEMENT_SOLID") {
             block_ = Block::solid;
+        } else if (word == "*PART") {
+            block_ = Block::part;
         } else if (word == "*KEYWORD") {
             block_ = Block::none;
         } else {
             block_ = Block::skipped;
-            // Titles and names of parts say nothing about the mesh.
-            if (word != "*TITLE" && word != "*PART") skipped_[word].push_back(line_);
+            // A title says nothing about the mesh.
+            if (word != "*TITLE") skipped_[word].push_back(line_);
         }
         return false;
     }
@@ -173,7 +179,23 @@ class LsDynaReader {
                 return shell(line);
             case Block::solid:
                 return solid(line);
+            case Block::part:
+                return part_name(line);
         }
+    }
+
+    /// By turns the title of a part and a card that starts with its id, in ten columns.
+    void part_name(std::string_view line) {
+        part_title_next_ = !part_title_next_;
+        if (!part_title_next_) {
+            title_ = trimmed(line);
+            return;
+        }
+        const std::size_t comma = line.find(',');
+        auto id = parse_integer(trimmed(line.substr(0, comma == std::string_view::npos ? 10 : comma)));
+        if (!id) id = parse_integer(split_blanks(line).fields[0]);
+        if (id && *id >= INT_MIN && *id <= INT_MAX && !title_.empty())
+            titles_.emplace(static_cast<int>(*id), title_);
     }
 
     void node(std::string_view line) {
@@ -311,6 +333,11 @@ class LsDynaReader {
             data_.hexahedra.push_back(cell);
             data_.hexahedron_parts.push_back(solid.part);
         }
+        // Titles of parts that have elements here, and are no names of ours.
+        std::set<int> parts(data_.surface.parts.begin(), data_.surface.parts.end());
+        parts.insert(data_.hexahedron_parts.begin(), data_.hexahedron_parts.end());
+        for (const auto& [id, title] : titles_)
+            if (parts.contains(id) && title != name_of_part(id, {})) data_.part_names.emplace(id, title);
         for (const auto& [word, lines] : skipped_)
             data_.warn("unknown-keyword",
                        "keyword " + in_quotes(word) + " in line " + list_ids(lines) +
@@ -326,6 +353,9 @@ class LsDynaReader {
     bool pending_solid_ = false;
     long long pending_id_ = 0;
     int pending_part_ = 1;
+    bool part_title_next_ = false;
+    std::string title_;
+    PartNames titles_;
     IdMap node_ids_, shell_ids_, solid_ids_;
     std::vector<std::uint32_t> node_lines_;
     std::vector<Element<4>> shells_;
@@ -333,8 +363,21 @@ class LsDynaReader {
     std::map<std::string, std::vector<std::int64_t>> skipped_;
 };
 
-void append_header(OutputFile& out, const char* block) {
+/// A name as a title: on one line that is neither a comment nor a keyword.
+std::string as_title(std::string name) {
+    for (char& c : name)
+        if (static_cast<unsigned char>(c) < 32) c = '_';
+    if (name.starts_with('$') || name.starts_with('*')) name.front() = '_';
+    return name;
+}
+
+void append_header(OutputFile& out, const char* block, const PartNames& names) {
     out.write("$# LS-DYNA keyword file written by hexspline\n*KEYWORD\n");
+    for (const auto& [part, name] : names) {
+        out.write("*PART\n" + as_title(name) + "\n");
+        append_number(out.buffer(), part);
+        out.write(",0,0\n");
+    }
     out.write(block);
 }
 
@@ -370,8 +413,8 @@ MeshData read_ls_dyna(const InputFile& file) {
     return LsDynaReader(file).read();
 }
 
-void write_ls_dyna_surface(OutputFile& out, const PolygonSoup& soup) {
-    append_header(out, "*ELEMENT_SHELL\n");
+void write_ls_dyna_surface(OutputFile& out, const PolygonSoup& soup, const PartNames& names) {
+    append_header(out, "*ELEMENT_SHELL\n", names);
     for (std::size_t f = 0; f < soup.size(); ++f) {
         const auto polygon = soup.polygon(f);
         const std::array<std::size_t, 4> corners = {polygon[0], polygon[1], polygon[2], polygon.back()};
@@ -381,8 +424,8 @@ void write_ls_dyna_surface(OutputFile& out, const PolygonSoup& soup) {
     append_nodes(out, soup.points);
 }
 
-void write_ls_dyna_hexahedra(OutputFile& out, const HexMesh& mesh, const Fields&) {
-    append_header(out, "*ELEMENT_SOLID\n");
+void write_ls_dyna_hexahedra(OutputFile& out, const HexMesh& mesh, const Fields& fields) {
+    append_header(out, "*ELEMENT_SOLID\n", fields.part_names);
     for (const CellId c : mesh.cells()) {
         std::array<std::size_t, 8> corners{};
         for (std::size_t i = 0; i < 8; ++i) corners[i] = mesh.cell(c)[i].index();

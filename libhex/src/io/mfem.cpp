@@ -1,5 +1,6 @@
 // MFEM meshes, version 1.0: elements with attributes (the parts) and vertices.
 #include "io/formats.h"
+#include "io/part_numbers.h"
 #include "io/text_scanner.h"
 
 #include <hex/base/error.h>
@@ -130,7 +131,14 @@ class MfemReader {
         }
         if (count < 3) {
             ++skipped_;
-        } else if (count < 8) {
+            return;
+        }
+        if (element.attribute < 1)
+            throw Error(ErrorKind::bad_input,
+                        "attribute " + std::to_string(element.attribute) +
+                            " of an element is not positive, as MFEM demands",
+                        scanner_.file().line_place(element.position));
+        if (count < 8) {
             data_.add_polygon(std::span(corners).first(count), element.attribute);
         } else {
             HexCell cell;
@@ -147,13 +155,6 @@ class MfemReader {
     std::size_t skipped_ = 0;
     std::vector<Element> elements_, boundary_;
 };
-
-void require_positive(std::span<const int> parts) {
-    for (const int part : parts)
-        if (part < 1)
-            throw Error(ErrorKind::unsupported, "part id " + std::to_string(part) + " is not positive", {},
-                        "MFEM knows only positive attributes");
-}
 
 void append_element(std::string& text, int attribute, Geometry geometry, const auto& corners) {
     append_number(text, attribute);
@@ -188,7 +189,7 @@ MeshData read_mfem(const InputFile& file) {
 }
 
 void write_mfem_surface(OutputFile& out, const PolygonSoup& soup) {
-    require_positive(soup.parts);
+    require_part_ids(soup.parts, 1, "polygons", "MFEM");
     write_start(out, 2, soup.size());
     for (std::size_t f = 0; f < soup.size(); ++f) {
         const auto polygon = soup.polygon(f);
@@ -200,7 +201,7 @@ void write_mfem_surface(OutputFile& out, const PolygonSoup& soup) {
 }
 
 void write_mfem_hexahedra(OutputFile& out, const HexMesh& mesh, const Fields&) {
-    require_positive(mesh.parts());
+    require_part_ids(mesh.parts(), 1, "hexahedra", "MFEM");
     write_start(out, 3, mesh.cell_count());
     for (const CellId c : mesh.cells()) {
         std::array<std::size_t, 8> corners{};

@@ -4,6 +4,8 @@
 
 #include <hex/base/error.h>
 
+#include <algorithm>
+
 namespace hex::io {
 namespace {
 
@@ -46,6 +48,12 @@ MeshData read_off(const InputFile& file) {
         data.add_polygon(corners, 1);
         // A colour may follow.
         scanner.rest_of_line();
+    }
+    if (!scanner.at_end()) {
+        const std::string_view before = scanner.text().substr(0, scanner.position());
+        const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+        data.warn("extra-text", "text after the last face is skipped: " + in_quotes(scanner.rest_of_line()),
+                  "line", {line});
     }
     return data;
 }

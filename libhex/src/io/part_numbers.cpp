@@ -2,6 +2,8 @@
 
 #include "io/input_file.h"
 
+#include <hex/base/diagnostics.h>
+#include <hex/base/error.h>
 #include <hex/io/number_text.h>
 
 #include <algorithm>
@@ -45,6 +47,19 @@ std::vector<int> number_parts(const std::vector<std::string>& names, PartNames& 
 std::string name_of_part(int part, const PartNames& names) {
     const auto found = names.find(part);
     return found != names.end() ? found->second : std::string(prefix) + std::to_string(part);
+}
+
+void require_part_ids(std::span<const int> parts, int least, const char* elements, const char* format) {
+    std::vector<std::int64_t> wrong;
+    for (std::size_t e = 0; e < parts.size(); ++e)
+        if (parts[e] < least) wrong.push_back(static_cast<std::int64_t>(e));
+    if (wrong.empty()) return;
+    const int first = parts[static_cast<std::size_t>(wrong.front())];
+    throw Error(
+        ErrorKind::unsupported,
+        std::string(format) + " carries no part ids below " + std::to_string(least) + ", and " + elements +
+            " " + list_ids(wrong) + " have such (the first has " + std::to_string(first) + ")",
+        {}, "change these part ids, or write another format: .k, .vtk, .vtu, .inp and .ovm carry them");
 }
 
 std::vector<int> distinct_parts(std::vector<int> parts) {

@@ -4,6 +4,7 @@
 
 #include <hex/io/part_names.h>
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,10 @@ std::vector<int> number_parts(const std::vector<std::string>& names, PartNames& 
 
 /// The name of a part, or "PART_7".
 std::string name_of_part(int part, const PartNames& names);
+
+/// Throws Error{unsupported} that names the elements ("polygons", "hexahedra") when part ids are smaller than
+/// `least`, for a format that has no such ids.
+void require_part_ids(std::span<const int> parts, int least, const char* elements, const char* format);
 
 /// The part ids, ascending, each once.
 std::vector<int> distinct_parts(std::vector<int> parts);

@@ -55,8 +55,12 @@ hex::io::MeshFile read_input(const CommandLine& line) {
 }
 
 /// Says what the new format drops.
-void warn_of_loss(const CommandLine& line, std::span<const int> parts) {
+void warn_of_loss(const CommandLine& line, std::span<const int> parts, const hex::io::PartNames& names) {
     const auto* format = hex::io::find_format(line.output());
+    if (format != nullptr && !format->part_names && !names.empty())
+        line.warn(line.output().string() + ": " + std::string(format->name) + " carries no names of parts; " +
+                  (names.size() == 1 ? "that of one is lost"
+                                     : "those of " + std::to_string(names.size()) + " are lost"));
     const bool has_parts = std::any_of(parts.begin(), parts.end(), [](int part) { return part != 1; });
     if (format != nullptr && !format->part_ids && has_parts)
         line.warn(line.output().string() + ": " + std::string(format->name) +
@@ -148,7 +152,7 @@ int run(CommandLine& line) {
         report = {{"content", "labels"}, {"labels", parts.size()}};
     } else if (const auto* surface = std::get_if<hex::io::SurfaceFile>(&file)) {
         line.log(surface->diagnostics);
-        warn_of_loss(line, surface->soup.parts);
+        warn_of_loss(line, surface->soup.parts, surface->part_names);
         hex::io::write_surface(line.output(), surface->soup, surface->part_names);
         report = {{"content", "surface"},
                   {"points", surface->soup.points.size()},
@@ -161,6 +165,7 @@ int run(CommandLine& line) {
     } else {
         const auto& hexahedra = std::get<hex::io::HexFile>(file);
         line.log(hexahedra.diagnostics);
+        warn_of_loss(line, hexahedra.mesh.parts(), hexahedra.part_names);
         hex::io::Fields fields;
         fields.part_names = hexahedra.part_names;
         hex::io::write_hex_mesh(line.output(), hexahedra.mesh, fields);

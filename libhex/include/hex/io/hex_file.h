@@ -27,7 +27,7 @@ struct ScalarField {
 struct Fields {
     std::vector<ScalarField> cell;
     std::vector<ScalarField> vertex;
-    /// Of part ids; used by formats that have them (.inp, .msh, .msh2), passed over by the others.
+    /// Of part ids; used by formats that have them (.k, .inp, .msh, .msh2), passed over by the others.
     PartNames part_names = {};
 };
 
