@@ -4,14 +4,16 @@
     check_test.py HEXSPLINE DATA
 """
 import json
+import os
 import re
+import subprocess
 import unittest
 import xml.etree.ElementTree as xml
 from pathlib import Path
 
 import jsonschema
 
-from program import DATA, ROD, CommandTest
+from program import DATA, PROGRAM, ROD, CommandTest
 
 SCHEMA = json.loads((DATA.parent / 'docs/check.schema.json').read_text())
 CUBE = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]
@@ -84,7 +86,8 @@ class Check(CommandTest):
         self.assertIn('several-components', [gate['name'] for gate in report['gates']])
         for text in ('{', '[]', '{"metrics": {"no": {}}}', '{"metrics": {"skew": {"min": "a"}}}', '{"metrics": {"skew": {"least": 1}}}',
                      '{"bad_share": 2}', '{"other": 1}', '{"profile": "no"}', '{"forbid": ["no"]}', '{"forbid": "no"}', '{"surface": 3}',
-                     '{"metrics": {"skew": {"min": 2, "max": 1}}}'):
+                     '{"metrics": {"skew": {"min": 2, "max": 1}}}', '{"metrics": {"skew": {"percentile": 95}}}', '{"metrics": {"all": {"min": 2}}}',
+                     '{"metrics": {"skew": {"bad_share": 0.1}}}'):
             (self.folder / 'bad.json').write_text(text)
             message = self.run_program('check', 'row.vtk', '--config', 'bad.json', code=3).stderr
             self.assertIn('bad.json', message, text)
@@ -201,6 +204,58 @@ class Check(CommandTest):
             self.assertIn(len(re.findall(r'(?<!\\)\|', row)), (5, 6), row)
         self.assertIn('FAILED  scaled_jacobian', done.stdout)
         self.assertIn('Name="scaled_jacobian"', (self.folder / 'out.vtu').read_bytes()[:4000].decode('latin1'))
+
+    def test_reports_of_files_with_any_name(self):
+        mesh = (self.folder / 'row.vtk').read_bytes()
+        for name in (b'latin1\xe4\xff.vtk', b'nonchar\xef\xbf\xbe.vtk', b'bell\x07esc\x1b[31m.vtk', b'cut\xf0\x9f.vtk', b'half\xed\xa0\x80.vtk',
+                     'Gr\u00f6\u00dfe \U0001f600.vtk'.encode()):
+            path = os.path.join(os.fsencode(self.folder), name)
+            with open(path, 'wb') as file:
+                file.write(mesh)
+            done = subprocess.run([PROGRAM, 'check', '-i', name, '--metric', 'skew::0', '--junit', 'r.xml', '--sarif', 'r.sarif', '--markdown', 'r.md'],
+                                  cwd=self.folder, stdin=subprocess.DEVNULL, capture_output=True)
+            self.assertEqual(done.returncode, 1, done.stderr)
+            suite = xml.fromstring((self.folder / 'r.xml').read_bytes())
+            self.assertEqual(len(suite.findall('.//failure')), 1)
+            json.loads((self.folder / 'r.sarif').read_bytes().decode())
+            self.assertIn('FAILED', (self.folder / 'r.md').read_bytes().decode())
+            if b'Gr' in name:
+                self.assertIn('Gr\u00f6\u00dfe \U0001f600', (self.folder / 'r.xml').read_text())
+                self.assertIn('Gr\u00f6\u00dfe \U0001f600', (self.folder / 'r.md').read_text())
+
+    def test_sarif_has_what_build_servers_demand(self):
+        self.check('row.vtk', '--metric', 'scaled_jacobian:0.99', '--forbid', 'unused-nodes', '--sarif', 'out.sarif', code=1)
+        run, = json.loads((self.folder / 'out.sarif').read_text())['runs']
+        self.assertEqual(run['automationDetails']['id'], 'hexspline-check/row.vtk/')
+        self.assertEqual(len(run['results']), 2)
+        for result in run['results']:
+            self.assertEqual(result['locations'][0]['physicalLocation']['region'], {'startLine': 1})
+
+    def test_one_report_may_go_to_stdout(self):
+        for name, read in (('json', json.loads), ('junit', xml.fromstring), ('sarif', json.loads)):
+            read(self.run_program('check', 'row.vtk', f'--{name}', '-').stdout)
+        self.assertRegex(self.run_program('check', 'row.vtk', '--markdown', '-').stdout, '^## hexspline check: row.vtk\n')
+        self.assertFalse((self.folder / '-').exists())
+        for one, other in (('--junit', '--sarif'), ('--json', '--markdown')):
+            self.run_program('check', 'row.vtk', one, '-', other, '-', code=2)
+
+    def test_no_report_is_written_over_a_file_that_is_read(self):
+        self.check('row.vtk')
+        (self.folder / 'report.json').rename(self.folder / 'old.json')
+        (self.folder / 'c.json').write_text('{"baseline": "old.json"}')
+        (self.folder / 'box.off').write_text('OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 0 3 2\n')
+        for arguments, target in ((['--baseline', 'old.json', '--json', './old.json'], 'old.json'), (['--config', 'c.json', '--sarif', 'c.json'], 'c.json'),
+                                  (['--config', 'c.json', '--junit', 'old.json'], 'old.json'),
+                                  (['--surface', 'box.off', '--markdown', 'box.off'], 'box.off')):
+            before = (self.folder / target).read_bytes()
+            self.assertIn('the same file', self.run_program('check', 'row.vtk', *arguments, code=2).stderr)
+            self.assertEqual((self.folder / target).read_bytes(), before)
+
+    def test_all_is_no_metric_with_a_limit(self):
+        for arguments in (['--percentile', 'all:5:0.1'], ['--metric', 'none']):
+            message = self.run_program('check', 'row.vtk', *arguments, code=2).stderr
+            self.assertNotIn('known metrics: all', message)
+            self.assertNotIn("no metric 'all'", message)
 
     def test_all_metrics_and_the_worst_elements(self):
         report, _ = self.check('row.vtk', '--metric', 'all', '--worst', '3')

@@ -30,14 +30,19 @@ std::vector<std::string> split(const std::string& text, char separator) {
 }
 
 std::string known_metrics() {
-    std::string names = "all";
-    for (const auto& metric : hex::hex_metrics()) names.append(", ").append(metric.name);
+    std::string names;
+    for (const auto& metric : hex::hex_metrics()) names.append(names.empty() ? "" : ", ").append(metric.name);
     return names;
+}
+
+std::string no_metric(const std::string& name) {
+    return name == "all" ? "'all' can be reported (--metric all), and a limit is for one metric"
+                         : "there is no metric '" + name + "'";
 }
 
 HexMetric metric_named(const std::string& name) {
     const auto metric = hex::find_hex_metric(name);
-    if (!metric) usage_error("there is no metric '" + name + "'", "known metrics: " + known_metrics());
+    if (!metric) usage_error(no_metric(name), "known metrics: " + known_metrics());
     return *metric;
 }
 
@@ -145,7 +150,7 @@ class ConfigReader {
 
     MetricLimit limit(const std::string& name, const Json& value) const {
         const auto metric = hex::find_hex_metric(name);
-        if (!metric) fail("there is no metric '" + name + "'; known metrics: " + known_metrics());
+        if (!metric) fail(no_metric(name) + "; known metrics: " + known_metrics());
         if (!value.is_object()) fail("'" + name + "' should be an object {...}");
         MetricLimit result{*metric, {}, {}, {}, {}};
         for (const auto& [key, entry] : value.items()) {
@@ -163,6 +168,9 @@ class ConfigReader {
         }
         if (result.min && result.max && *result.min > *result.max)
             fail("the minimum of '" + name + "' is larger than its maximum");
+        if ((result.percentile || result.bad_share) && !result.has_limits())
+            fail("'" + name + "' has a " + (result.percentile ? "percentile" : "bad_share") +
+                 " and no limit (min, max) for it");
         return result;
     }
 
@@ -225,7 +233,10 @@ std::vector<MetricLimit> parse_metric(const std::string& text) {
         for (const auto& metric : hex::hex_metrics()) limits.push_back({metric.metric, {}, {}, {}, {}});
         return limits;
     }
-    MetricLimit limit{metric_named(parts[0]), {}, {}, {}, {}};
+    const auto metric = hex::find_hex_metric(parts[0]);
+    if (!metric)
+        usage_error(no_metric(parts[0]), "known metrics: " + known_metrics() + "; all reports every one");
+    MetricLimit limit{*metric, {}, {}, {}, {}};
     if (parts.size() > 1) limit.min = optional_number(parts[1], text);
     if (parts.size() > 2) limit.max = optional_number(parts[2], text);
     check_order(limit, text);

@@ -1,5 +1,7 @@
 #include "hexspline/check_report.h"
 
+#include "hexspline/report_text.h"
+
 #include <hex/base/version.h>
 
 #include <fmt/format.h>
@@ -89,57 +91,10 @@ std::string gate_line(const Gate& gate) {
     return gate.name + ": " + gate.demand + "; found: " + gate.found;
 }
 
-/// Text inside XML: markup escaped, control characters replaced.
-std::string xml(const std::string& text) {
-    std::string result;
-    for (const char c : text) {
-        switch (c) {
-            case '&':
-                result += "&amp;";
-                break;
-            case '<':
-                result += "&lt;";
-                break;
-            case '>':
-                result += "&gt;";
-                break;
-            case '"':
-                result += "&quot;";
-                break;
-            default:
-                result += static_cast<unsigned char>(c) < 32 ? '?' : c;
-        }
-    }
-    return result;
-}
-
-/// A path as a relative or absolute URI.
-std::string uri(const std::string& path) {
-    static constexpr std::string_view plain = "-._~/";
-    std::string result = path.starts_with('/') ? "file://" : "";
-    for (const char c : path) {
-        const auto byte = static_cast<unsigned char>(c);
-        const bool letter = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
-        if (letter || plain.find(c) != std::string_view::npos)
-            result += c;
-        else
-            result += fmt::format("%{:02X}", byte);
-    }
-    return result;
-}
-
-/// Text inside a cell of a Markdown table.
-std::string cell(const std::string& text) {
-    std::string result;
-    for (const char c : text) {
-        if (c == '|' || c == '*' || c == '_' || c == '`' || c == '<' || c == '\\') result += '\\';
-        result += c == '\n' ? ' ' : c;
-    }
-    return result;
-}
-
+/// Build servers demand a region; the elements of a mesh are told by the logical location.
 Json location(const Outcome& outcome) {
-    return {{"physicalLocation", {{"artifactLocation", {{"uri", uri(outcome.input)}}}}}};
+    return {{"physicalLocation",
+             {{"artifactLocation", {{"uri", uri_of(outcome.input)}}}, {"region", {{"startLine", 1}}}}}};
 }
 
 }  // namespace
@@ -286,12 +241,13 @@ std::string junit_text(const Outcome& outcome) {
                                     outcome.failed_gates());
     text += "<testsuites " + counts + ">\n  <testsuite name=\"hexspline check\" " + counts + ">\n";
     for (const Gate& gate : outcome.gates) {
-        text += "    <testcase classname=\"" + xml(outcome.input) + "\" name=\"" + xml(gate.name) + "\"";
+        text += "    <testcase classname=\"" + xml_text(outcome.input) + "\" name=\"" + xml_text(gate.name) +
+                "\"";
         if (gate.passed) {
             text += "/>\n";
             continue;
         }
-        text += ">\n      <failure message=\"" + xml(gate_line(gate)) + "\">";
+        text += ">\n      <failure message=\"" + xml_text(gate_line(gate)) + "\">";
         for (const CellId c : gate.cells) {
             const hex::Vec3 centre = centre_of(outcome.mesh, c);
             text += fmt::format("hexahedron {} at ({:.6g}, {:.6g}, {:.6g})\n", c.value(), centre.x(),
@@ -334,13 +290,15 @@ std::string sarif_text(const Outcome& outcome) {
          Json::array(
              {{{"tool",
                 {{"driver", {{"name", "hexspline check"}, {"version", hex::version}, {"rules", rules}}}}},
+               // What stands before the last slash tells uploads of several files apart.
+               {"automationDetails", {{"id", "hexspline-check/" + outcome.input + "/"}}},
                {"results", results}}})}};
     return sarif.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string markdown_text(const Outcome& outcome) {
     const Findings& findings = outcome.findings;
-    std::string text = "## hexspline check: " + cell(outcome.input) + "\n\n";
+    std::string text = "## hexspline check: " + markdown_cell(outcome.input) + "\n\n";
     text += outcome.passed()
                 ? "**Passed.** "
                 : fmt::format("**{} of {} demands failed.** ", outcome.failed_gates(), outcome.gates.size());
@@ -352,14 +310,16 @@ std::string markdown_text(const Outcome& outcome) {
         std::string elements;
         for (const CellId c : gate.cells)
             elements.append(elements.empty() ? "hexahedra " : ", ").append(std::to_string(c.value()));
-        text += fmt::format("| {} {} | {} | {} | {} |\n", cell(gate.name), cell(gate.demand),
-                            gate.passed ? "passed" : "**FAILED**", cell(gate.found), elements);
+        text +=
+            fmt::format("| {} {} | {} | {} | {} |\n", markdown_cell(gate.name), markdown_cell(gate.demand),
+                        gate.passed ? "passed" : "**FAILED**", markdown_cell(gate.found), elements);
     }
     text += "\n| metric | min | mean | median | max |\n|---|---|---|---|---|\n";
     for (const auto& [metric, measured] : findings.metrics) {
         const auto& s = measured.statistics;
-        text += fmt::format("| {} | {:.6g} | {:.6g} | {:.6g} | {:.6g} |\n",
-                            cell(std::string(hex::info(metric).name)), s.min, s.mean, s.median, s.max);
+        text +=
+            fmt::format("| {} | {:.6g} | {:.6g} | {:.6g} | {:.6g} |\n",
+                        markdown_cell(std::string(hex::info(metric).name)), s.min, s.mean, s.median, s.max);
     }
     return text;
 }

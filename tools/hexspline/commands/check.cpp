@@ -18,6 +18,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <iostream>
 #include <string>
 
@@ -50,9 +51,9 @@ void describe(CommandLine& line) {
     line.add("baseline-tolerance", value<double>("T")->default_value(1e-9, "1e-9"),
              "relative change that is not worse yet");
     line.add("worst", value<int>("N")->default_value(5), "list the N worst elements of each metric");
-    line.add_output_file("junit", "write the demands as JUnit XML");
-    line.add_output_file("sarif", "write what failed as SARIF 2.1.0");
-    line.add_output_file("markdown", "write a summary as Markdown");
+    line.add_output_file("junit", "write the demands as JUnit XML, - for stdout");
+    line.add_output_file("sarif", "write what failed as SARIF 2.1.0, - for stdout");
+    line.add_output_file("markdown", "write a summary as Markdown, - for stdout");
     line.add_output_file("vtu", "write the mesh with its metrics as cell data");
 }
 
@@ -143,12 +144,44 @@ void write_vtu(const std::filesystem::path& file, const Outcome& outcome) {
     hex::io::write_hex_mesh(file, outcome.mesh, fields);
 }
 
+constexpr std::array<const char*, 4> reports = {"json", "junit", "sarif", "markdown"};
+
+/// The report that goes to stdout, or nullptr. Throws Error{usage} when there are several.
+const char* report_to_stdout(const CommandLine& line) {
+    const char* found = nullptr;
+    for (const char* name : reports) {
+        if (line.get_or<std::string>(name, "") != "-") continue;
+        if (found != nullptr)
+            throw hex::Error(hex::ErrorKind::usage, std::string("--").append(found) + " and --" + name +
+                                                        " cannot both go to stdout");
+        found = name;
+    }
+    return found;
+}
+
+/// No report may be written over what the configuration file names; options that name the same file are
+/// refused before.
+void require_nothing_read_is_written(const CommandLine& line, const Demands& demands) {
+    for (const char* name : {"json", "junit", "sarif", "markdown", "vtu"}) {
+        const auto target = line.get_or<std::string>(name, "-");
+        for (const auto& read : {demands.surface, demands.baseline}) {
+            std::error_code missing;
+            if (target != "-" && read && std::filesystem::equivalent(target, *read, missing))
+                throw hex::Error(
+                    hex::ErrorKind::usage,
+                    std::string("--").append(name) + " and a file to read are the same file " + target);
+        }
+    }
+}
+
 int run(CommandLine& line) {
+    const char* to_stdout = report_to_stdout(line);
     line.require_range("worst", line.get<int>("worst"), 0, 1e6);
     line.require_range("duplicate-tolerance", line.get<double>("duplicate-tolerance"), 0.0, 1.0);
     line.require_range("baseline-tolerance", line.get<double>("baseline-tolerance"), 0.0, 1e30);
     const auto worst = static_cast<std::size_t>(line.get<int>("worst"));
     const Demands demands = demands_of(line);
+    require_nothing_read_is_written(line, demands);
     hex::HexMesh mesh;
     std::optional<spline::JacobianReport> bezier;
     if (is_bext(line.input())) {
@@ -166,10 +199,15 @@ int run(CommandLine& line) {
                                                 outcome.findings, worst))
             outcome.gates.push_back(std::move(gate));
 
-    if (line.get_or<std::string>("json", "") != "-") std::cout << table_text(outcome);
+    if (to_stdout == nullptr) std::cout << table_text(outcome);
     line.write_report(report_json(outcome));
     const auto write = [&](const char* name, std::string (*text)(const Outcome&)) {
-        if (line.given(name)) hex::io::write_file(line.get<std::string>(name), text(outcome));
+        if (!line.given(name)) return;
+        const auto target = line.get<std::string>(name);
+        if (target == "-")
+            std::cout << text(outcome) << std::flush;
+        else
+            hex::io::write_file(target, text(outcome));
     };
     write("junit", junit_text);
     write("sarif", sarif_text);
