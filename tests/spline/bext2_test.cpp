@@ -126,7 +126,11 @@ TEST(Bext2, BrokenFilesAreRefusedWithTheirLine) {
         try {
             io::read_bext2(folder / "b.bxt");
         } catch (const hex::Error& error) {
-            EXPECT_NE(error.where().find("b.bxt:"), std::string::npos);
+            // A file without a line is named alone.
+            if (text.empty())
+                EXPECT_EQ(error.where(), (folder / "b.bxt").string());
+            else
+                EXPECT_NE(error.where().find("b.bxt:"), std::string::npos);
             return error.kind() == hex::ErrorKind::bad_input || error.kind() == hex::ErrorKind::unsupported;
         }
         return false;
