@@ -204,7 +204,8 @@ std::vector<CommandLine::State::File> CommandLine::State::files() const {
 
 void CommandLine::require_different_files() const {
     for (const std::string& name : state_->output_files)
-        if (given(name) && get<std::string>(name).empty()) usage_error("--" + name + " has no name of a file");
+        if (given(name) && get<std::string>(name).empty())
+            usage_error("--" + name + " has no name of a file");
     const std::vector<State::File> files = state_->files();
     for (const auto& file : files) {
         if (!file.written) continue;
