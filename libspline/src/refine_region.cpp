@@ -138,10 +138,10 @@ void read_places(const std::string& path, RefineRegion& region) {
 }  // namespace
 
 void require_patches(const RefineRegion& region, const LevelMesh& coarsest) {
-    const auto& known = coarsest.patch_of_quad;
+    const auto& known = coarsest.patch_of_quad;  // numbers without gaps
+    const auto count = known.empty() ? 0 : *std::max_element(known.begin(), known.end()) + 1;
     for (std::size_t i = 0; i < region.patches.size(); ++i) {
-        if (std::find(known.begin(), known.end(), region.patches[i]) != known.end()) continue;
-        const auto count = known.empty() ? 0 : *std::max_element(known.begin(), known.end()) + 1;
+        if (region.patches[i] < count) continue;
         throw Error(ErrorKind::bad_input,
                     "there is no patch " + std::to_string(region.patches[i]) + "; there are " +
                         std::to_string(count) + ", counted from 0",
