@@ -4,6 +4,7 @@
 ///   hexspline segment -i part_patches.k -o part_checked.k --from-patches --require
 
 #include "hexspline/command.h"
+#include "hexspline/segment_report.h"
 #include "hexspline/surface_input.h"
 
 #include <hex/base/error.h>
@@ -81,13 +82,6 @@ Json report_of(const hex::SegmentResult& result, const hex::SegmentOptions& opti
                           {"sweep", sweep.sweep},
                           {"moves", sweep.moves},
                           {"energy", sweep.energy}});
-    Json repairs = Json::array();
-    for (const auto& repair : report.repairs)
-        repairs.push_back({{"repair", repair.repair},
-                           {"reason", repair.reason},
-                           {"triangle", repair.triangle},
-                           {"triangles", repair.triangles},
-                           {"cost", repair.cost}});
     return {{"method", report.method},
             {"weight", report.sweeps.empty() ? Json(nullptr) : Json(options.boundary_weight)},
             {"label_counts", counts},
@@ -95,7 +89,7 @@ Json report_of(const hex::SegmentResult& result, const hex::SegmentOptions& opti
             {"boundaries", report.boundaries},
             {"corners", report.corners},
             {"rotation", rotation},
-            {"repairs", repairs},
+            {"repairs", to_json(report.repairs)},
             {"manual_changes", report.manual_changes},
             {"generators", generators},
             {"sweeps", sweeps},
