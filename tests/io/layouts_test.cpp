@@ -388,6 +388,27 @@ TEST(Ply, AsciiWithExtraElementsAndProperties) {
     EXPECT_EQ(file.soup.parts, (std::vector<int>{5, 6}));
 }
 
+TEST(Ply, WhatTheHeaderDoesNotCountIsWarnedOf) {
+    const auto warnings = [](const std::string& format, const std::string& data) {
+        return surface_of(".ply",
+                          "ply\nformat " + format +
+                              " 1.0\nelement vertex 3\nproperty char x\nproperty char y\nproperty char "
+                              "z\nelement face 1\nproperty list char char vertex_indices\nend_header\n" +
+                              data)
+            .diagnostics;
+    };
+    const std::string ascii = "0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+    EXPECT_TRUE(warnings("ascii", ascii + "\n ").empty());
+    const auto found = warnings("ascii", ascii + "\n3 0 2 1\n");
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found[0].code, "extra-text");
+    EXPECT_EQ(found[0].ids, (std::vector<std::int64_t>{15}));
+
+    const std::string binary("\0\0\0\1\0\0\0\1\0\3\0\1\2", 13);
+    EXPECT_TRUE(warnings("binary_little_endian", binary).empty());
+    EXPECT_EQ(warnings("binary_little_endian", binary + '\0').at(0).code, "extra-text");
+}
+
 template <class Number>
 void append(std::string& text, Number number, std::endian order) {
     auto bytes = std::bit_cast<std::array<char, sizeof(Number)>>(number);
@@ -590,6 +611,10 @@ TEST(Abaqus, NodeSetsAndSurfacesAreWarnedOfOnce) {
     ASSERT_EQ(codes_of(file.diagnostics), (Texts{"sets-skipped", "sets-skipped"}));
     EXPECT_NE(file.diagnostics[0].message.find("*NSET in line 7, 9"), std::string::npos);
     EXPECT_NE(file.diagnostics[1].message.find("*SURFACE in line 11"), std::string::npos);
+    const auto of_nodes = surface_of(
+        ".inp", "*NODE, NSET=all\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n*ELEMENT, TYPE=S3\n1, 1, 2, 3\n");
+    ASSERT_EQ(codes_of(of_nodes.diagnostics), (Texts{"sets-skipped"}));
+    EXPECT_NE(of_nodes.diagnostics[0].message.find("*NODE in line 1"), std::string::npos);
 }
 
 TEST(Abaqus, SetsThatOverlapManyTimesTakeLittleTime) {

@@ -4,8 +4,6 @@
 
 #include <hex/base/error.h>
 
-#include <algorithm>
-
 namespace hex::io {
 namespace {
 
@@ -50,8 +48,7 @@ MeshData read_off(const InputFile& file) {
         scanner.rest_of_line();
     }
     if (!scanner.at_end()) {
-        const std::string_view before = scanner.text().substr(0, scanner.position());
-        const auto line = 1 + std::count(before.begin(), before.end(), '\n');
+        const std::int64_t line = scanner.line();
         data.warn("extra-text", "text after the last face is skipped: " + in_quotes(scanner.rest_of_line()),
                   "line", {line});
     }

@@ -48,6 +48,7 @@ class PlyReader {
             else
                 skip(element);
         }
+        warn_of_rest();
         return std::move(data_);
     }
 
@@ -271,6 +272,15 @@ class PlyReader {
                      std::to_string(static_cast<long long>(data_.points().size()) - 1));
             corners.push_back(static_cast<std::uint32_t>(v));
         }
+    }
+
+    /// The header may count less than there is.
+    void warn_of_rest() {
+        if (scanner_.at_end()) return;
+        if (binary_)
+            data_.warn("extra-text", "bytes after the last element are skipped");
+        else
+            data_.warn("extra-text", "text after the last element is skipped", "line", {scanner_.line()});
     }
 
     TextScanner scanner_;

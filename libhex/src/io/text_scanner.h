@@ -44,6 +44,12 @@ class TextScanner {
         if (word_start_ == position_) fail(std::string("the file ends where ") + what + " should be");
         return text_.substr(word_start_, position_ - word_start_);
     }
+    /// The line of the next word, from 1.
+    std::int64_t line() {
+        skip_blanks();
+        const std::string_view before = text_.substr(0, position_);
+        return 1 + std::count(before.begin(), before.end(), '\n');
+    }
     /// The next word without taking it or the blanks before it; empty at the end.
     std::string_view peek() {
         const std::size_t start = position_;
