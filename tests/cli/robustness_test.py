@@ -143,6 +143,26 @@ class Robustness(CommandTest):
         self.assertEqual((self.folder / 'out.off').read_text(), 'the old one')
         self.assertEqual(self.left_over(), [])
 
+    def test_a_small_disk_of_its_own_that_fills_up(self):
+        """A real file system with room for an old file and not for a new one."""
+        in_namespace = ['unshare', '--mount', '--map-root-user', 'sh', '-euc']
+        mount = 'mount -t tmpfs -o size=64k tmpfs disk'
+        (self.folder / 'disk').mkdir()
+        if subprocess.run([*in_namespace, mount], cwd=self.folder, capture_output=True).returncode != 0:
+            self.skipTest('no file system may be mounted here')
+        script = mount + """
+            echo 'the old one' > disk/out.off
+            code=0
+            "$1" convert "$2" -o disk/out.off || code=$?
+            [ "$(cat disk/out.off)" = 'the old one' ]
+            [ "$(ls -A disk)" = out.off ]
+            exit $code"""
+        done = subprocess.run([*in_namespace, script, 'sh', PROGRAM, ROD / 'rod_tri.k'], cwd=self.folder, stdin=subprocess.DEVNULL,
+                              capture_output=True, text=True, timeout=60)
+        self.assertEqual(done.returncode, 5, done.stderr)
+        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+        self.assertIn('No space left on device', done.stderr)
+
     def test_too_little_memory_is_said_to_be_so(self):
         (self.folder / 'grid.vtk').write_text(grid_text(40))
         codes = []
