@@ -6,18 +6,8 @@
 import json
 import unittest
 
+from hex_files import CUBE, write_vtk
 from program import ROD, CommandTest
-
-
-def write_vtk(path, points, cells):
-    rows = ['# vtk DataFile Version 3.0', 'test', 'ASCII', 'DATASET UNSTRUCTURED_GRID', f'POINTS {len(points)} double']
-    rows += [' '.join(map(str, p)) for p in points]
-    rows += [f'CELLS {len(cells)} {9 * len(cells)}'] + [' '.join(map(str, [8, *c])) for c in cells]
-    rows += [f'CELL_TYPES {len(cells)}'] + ['12'] * len(cells)
-    path.write_text('\n'.join(rows) + '\n')
-
-
-CUBE = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0, 0, 1), (1, 0, 1), (1, 1, 1), (0, 1, 1)]
 
 
 class Commands(CommandTest):

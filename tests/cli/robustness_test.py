@@ -11,22 +11,8 @@ import time
 import unittest
 from pathlib import Path
 
+from hex_files import grid, write_vtk
 from program import DATA, PROGRAM, ROD, CommandTest
-
-
-def grid_text(n):
-    """An ASCII .vtk file of n^3 hexahedra."""
-    m = n + 1
-    rows = ['# vtk DataFile Version 3.0', 'grid', 'ASCII', 'DATASET UNSTRUCTURED_GRID', f'POINTS {m ** 3} double']
-    rows += [f'{i} {j} {k}' for k in range(m) for j in range(m) for i in range(m)]
-    rows += [f'CELLS {n ** 3} {9 * n ** 3}']
-    for k in range(n):
-        for j in range(n):
-            for i in range(n):
-                a = i + m * (j + m * k)
-                rows.append(f'8 {a} {a + 1} {a + m + 1} {a + m} {a + m * m} {a + m * m + 1} {a + m * m + m + 1} {a + m * m + m}')
-    rows += [f'CELL_TYPES {n ** 3}'] + ['12'] * n ** 3
-    return '\n'.join(rows) + '\n'
 
 
 class Robustness(CommandTest):
@@ -86,7 +72,7 @@ class Robustness(CommandTest):
         self.assertIn('report.json', self.one_line('run', ROD / 'rod.stl', '-o', 'out', '--from', 'polycube', code=3))
 
     def test_lists_of_other_systems_are_read(self):
-        (self.folder / 'cube.vtk').write_text(grid_text(2))
+        write_vtk(self.folder / 'cube.vtk', *grid(2, 2, 2))
         improve, spline = ['improve', 'cube.vtk', '-o', 'out.vtk', '--features'], ['spline', 'cube.vtk', '-o', 'out.bext', '--refine']
         for head, end in (('', '\n'), ('\xef\xbb\xbf', '\r\n')):
             for text, command, prefix in ((f'0 1{end}1 2{end}', improve, ''), (f'0.2 0.2 0.2{end}', spline, 'near:'), (f'0{end}{end}', spline, 'near:')):
@@ -94,7 +80,7 @@ class Robustness(CommandTest):
                 self.run_program(*command, prefix + 'list.txt')
 
     def test_values_in_lists_that_do_not_fit(self):
-        (self.folder / 'cube.vtk').write_text(grid_text(2))
+        write_vtk(self.folder / 'cube.vtk', *grid(2, 2, 2))
         improve, spline = ['improve', 'cube.vtk', '-o', 'out.vtk', '--features'], ['spline', 'cube.vtk', '-o', 'out.bext', '--refine']
         for text, command, place, words in (
                 ('0\n4294967296\n', spline, 'list.txt:2: ', '4294967296'), ('0\n\n7\n', spline, 'list.txt:3: ', 'no patch 7'),
@@ -164,7 +150,7 @@ class Robustness(CommandTest):
         self.assertIn('No space left on device', done.stderr)
 
     def test_too_little_memory_is_said_to_be_so(self):
-        (self.folder / 'grid.vtk').write_text(grid_text(40))
+        write_vtk(self.folder / 'grid.vtk', *grid(40, 40, 40))
         codes = []
         # From what the loader of the libraries needs on; without --threads the threads of oneTBB want memory, too.
         for megabytes, *threads in [[m] for m in range(80, 116, 3)] + [[m, '--threads', '1'] for m in range(80, 260, 10)]:
@@ -200,7 +186,7 @@ class Robustness(CommandTest):
             self.assertIn('threads', self.one_line(*command, code=5, preexec_fn=without_threads))
 
     def test_killed_while_writing_the_old_file_stays_whole(self):
-        (self.folder / 'grid.vtk').write_text(grid_text(60))
+        write_vtk(self.folder / 'grid.vtk', *grid(60, 60, 60))
         self.run_program('convert', 'grid.vtk', '-o', 'out.k')
         whole = (self.folder / 'out.k').read_bytes()
         unfinished = 0
@@ -242,7 +228,7 @@ class Robustness(CommandTest):
                 self.assertEqual(self.left_over(), [])
 
     def test_interrupted_while_it_writes_it_says_so(self):
-        (self.folder / 'grid.vtk').write_text(grid_text(60))
+        write_vtk(self.folder / 'grid.vtk', *grid(60, 60, 60))
         process = subprocess.Popen([PROGRAM, 'convert', 'grid.vtk', '-o', 'out.vtk'], cwd=self.folder, stderr=subprocess.PIPE, text=True)
         while process.poll() is None and not self.left_over():
             pass

@@ -164,13 +164,20 @@ class GmshReader {
             numbers_.fail("node " + std::to_string(node_tags_.id(twice)) + " is defined twice");
     }
 
-    void nodes_in_blocks() {
-        start_nodes();
+    /// How many blocks a section of version 4 has, and how many nodes or elements of at least `bytes` they
+    /// hold.
+    std::pair<std::size_t, std::size_t> block_counts(const char* what, std::size_t bytes) {
         numbers_.next_line();
         const std::size_t blocks = numbers_.count("the number of blocks", 8);
-        const std::size_t count = numbers_.count("the number of nodes", 8);
+        const std::size_t count = numbers_.count(what, bytes);
         numbers_.size("the smallest tag");
         numbers_.size("the largest tag");
+        return {blocks, count};
+    }
+
+    void nodes_in_blocks() {
+        start_nodes();
+        const auto [blocks, count] = block_counts("the number of nodes", 8);
         data_.points().reserve(count);
         std::vector<long long> tags;
         for (std::size_t b = 0; b < blocks; ++b) {
@@ -253,11 +260,7 @@ class GmshReader {
 
     void elements_in_blocks() {
         start_elements();
-        numbers_.next_line();
-        const std::size_t blocks = numbers_.count("the number of blocks", 8);
-        const std::size_t count = numbers_.count("the number of elements", 4);
-        numbers_.size("the smallest tag");
-        numbers_.size("the largest tag");
+        const auto [blocks, count] = block_counts("the number of elements", 4);
         std::size_t found = 0;
         for (std::size_t b = 0; b < blocks; ++b) {
             const int dimension = numbers_.small_integer("a dimension");
