@@ -611,10 +611,6 @@ TEST(Abaqus, NodeSetsAndSurfacesAreWarnedOfOnce) {
     ASSERT_EQ(codes_of(file.diagnostics), (Texts{"sets-skipped", "sets-skipped"}));
     EXPECT_NE(file.diagnostics[0].message.find("*NSET in line 7, 9"), std::string::npos);
     EXPECT_NE(file.diagnostics[1].message.find("*SURFACE in line 11"), std::string::npos);
-    const auto of_nodes = surface_of(
-        ".inp", "*NODE, NSET=all\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n*ELEMENT, TYPE=S3\n1, 1, 2, 3\n");
-    ASSERT_EQ(codes_of(of_nodes.diagnostics), (Texts{"sets-skipped"}));
-    EXPECT_NE(of_nodes.diagnostics[0].message.find("*NODE in line 1"), std::string::npos);
 }
 
 TEST(Abaqus, SetsThatOverlapManyTimesTakeLittleTime) {

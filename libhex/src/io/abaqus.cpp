@@ -141,7 +141,6 @@ class AbaqusReader {
                      ErrorKind::unsupported);
             if (word.parameters.contains("INPUT"))
                 fail("*NODE, INPUT= is not supported", ErrorKind::unsupported);
-            if (!value("NSET").empty()) skipped_keywords_[word.name].push_back(position_);
             block_ = Block::node;
         } else if (word.name == "ELEMENT") {
             if (word.parameters.contains("INPUT"))
@@ -289,8 +288,9 @@ class AbaqusReader {
         for (const auto& [name, positions] : skipped_keywords_) {
             const std::vector<std::int64_t> lines = lines_of(positions);
             data_.warn("sets-skipped",
-                       (name == "SURFACE" ? "surfaces made of element faces (*" : "node sets (*") + name +
-                           " in line " + list_ids(lines) + ") are skipped",
+                       std::string(name == "NSET" ? "node sets (*NSET in line "
+                                                  : "surfaces made of element faces (*SURFACE in line ") +
+                           list_ids(lines) + ") are skipped",
                        "line", lines);
         }
     }
