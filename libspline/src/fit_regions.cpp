@@ -31,8 +31,8 @@ std::vector<std::int64_t> farthest(const BezierSpline& spline, const std::vector
 
 }  // namespace
 
-void list_fit_regions(const SplineBuilder& builder, const hex::HexMesh& mesh, SplineOptions& options,
-                      const hex::Context& context) {
+void list_fit_regions(const std::function<SplineResult(const SplineOptions&)>& build,
+                      SplineOptions& options) {
     const auto begin = std::stable_partition(
         options.regions.begin(), options.regions.end(),
         [](const RefineRegion& region) { return region.kind != RefineRegion::Kind::worst_fit; });
@@ -45,7 +45,7 @@ void list_fit_regions(const SplineBuilder& builder, const hex::HexMesh& mesh, Sp
     int deepest = 0;
     for (const RefineRegion& region : by_fit) deepest = std::max(deepest, region.level);
     for (std::size_t l = 0; l < static_cast<std::size_t>(deepest); ++l) {
-        const SplineResult so_far = builder.build(mesh, options, context);
+        const SplineResult so_far = build(options);
         if (so_far.levels.size() <= l) return;
         const std::vector<double> errors = options.fit_errors(so_far.spline);
         // What closure and other regions refine is named, too, so that ids of the next levels stay as they

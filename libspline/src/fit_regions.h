@@ -4,11 +4,12 @@
 
 #include <spline/spline.h>
 
+#include <functional>
+
 namespace spline {
 
 /// Turns the regions worst_fit of the options into lists of elements, level by level: each level is judged on
-/// the spline that the coarser ones give. Throws Error{usage} without `fit_errors`.
-void list_fit_regions(const SplineBuilder& builder, const hex::HexMesh& mesh, SplineOptions& options,
-                      const hex::Context& context);
+/// the spline that the coarser ones give, made by `build`. Throws Error{usage} without `fit_errors`.
+void list_fit_regions(const std::function<SplineResult(const SplineOptions&)>& build, SplineOptions& options);
 
 }  // namespace spline

@@ -1,6 +1,8 @@
 #include "fit_regions.h"
+#include "spline_result.h"
 
 #include <hex/base/error.h>
+#include <hex/base/method_call.h>
 #include <hex/base/parallel.h>
 #include <hex/quality/scaled_jacobian.h>
 #include <hex/volume/topology.h>
@@ -155,7 +157,7 @@ std::vector<std::int64_t> map_feature_vertices(const SplineOptions& options,
 
 SplineResult build(const hex::HexMesh& mesh, const SplineOptions& options, const hex::Context& context) {
     check_options(options);
-    const auto builder = spline_builders().make(options.method);
+    const hex::MethodCall<SplineBuilder> method(spline_builders(), options.method);
     if (mesh.empty()) throw Error(ErrorKind::bad_input, "the mesh has no hexahedra");
     return hex::with_threads(context, [&] {
         hex::Diagnostics diagnostics;
@@ -174,8 +176,14 @@ SplineResult build(const hex::HexMesh& mesh, const SplineOptions& options, const
                  compacted.dropped});
 
         const hex::HexMesh& control = compacted.dropped.empty() ? mesh : compacted.mesh;
-        list_fit_regions(*builder, control, used, context);
-        SplineResult result = builder->build(control, used, context);
+        const auto build_with = [&](const SplineOptions& asked) {
+            SplineResult made =
+                method([&](const SplineBuilder& builder) { return builder.build(control, asked, context); });
+            method.require("spline", [&] { require_spline(made); });
+            return made;
+        };
+        list_fit_regions(build_with, used);
+        SplineResult result = build_with(used);
         result.report.method = options.method;
         result.report.input_vertices = mesh.vertex_count();
         result.report.input_elements = mesh.cell_count();

@@ -73,6 +73,17 @@ class Plugin(unittest.TestCase):
             self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
             self.assertIn(str(file), done.stderr)
 
+    def test_what_the_loader_says_of_a_file_is_said_once(self):
+        # A file name with the words that are looked for makes no difference.
+        for name, bytes_, reason in (('short.so', b'\x7fELF', 'file too short'), ('text.so', b'no library' * 99, 'invalid ELF header'),
+                                     ('a): dlerror system message: b): .so', b'', 'file too short')):
+            with self.subTest(name=name):
+                file = self.folder / name
+                file.write_bytes(bytes_)
+                done = run('plugins', '--plugin', file)
+                self.assertEqual(done.returncode, 3)
+                self.assertEqual(done.stderr, f'hexspline plugins: error: {file}: cannot be loaded as a plug-in: {reason}\n')
+
     @unittest.skipIf(shutil.which('c++') is None, 'no compiler')
     def test_plugins_with_faults_are_refused_in_one_line(self):
         head = ('struct Info { int version; const char* name; const char* text; void (*run)(); };\n'
@@ -247,6 +258,8 @@ class Plugin(unittest.TestCase):
 
     def test_whatever_a_method_throws_is_one_line_and_an_exit_code(self):
         for how, code, words in (('error', 4, 'triangle 3: no luck; try again'), ('standard', 4, 'no luck'), ('number', 4, 'unknown kind'),
+                                 ('silent', 4, 'an exception without a message'), ('silent-error', 4, 'an exception without a message'),
+                                 ('colours', 4, 'failed: no [31m luck '), ('null', 4, 'gives no object'), ('rotation', 4, 'rotation'),
                                  ('memory', 5, 'memory'), ('lines', 4, 'no luck and no manners'), ('thread', 4, 'no luck'),
                                  ('factory', 4, 'no luck'), ('labels', 4, 'label 17'), ('few', 4, '0 labels')):
             with self.subTest(how=how):
@@ -256,16 +269,42 @@ class Plugin(unittest.TestCase):
                 self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
                 self.assertTrue(done.stderr.startswith('hexspline segment: error: '), done.stderr)
                 self.assertIn(words, done.stderr)
+                # What the method says itself, and what is nobody's fault, is told as it is.
+                if how not in ('error', 'memory', 'null'):
+                    self.assertIn(f"method 'faulty-{how}' of stage 'segment' (plug-in {FAULTY})", done.stderr)
                 self.assertFalse(out.exists())
 
-    def test_an_improver_that_throws_is_one_line_and_an_exit_code(self):
-        done = run('improve', '-i', DATA / 'blob/blob_blocks.k', '-o', self.folder / 'out.vtk', '-m', 'faulty', '--plugin', FAULTY)
-        self.assertEqual(done.returncode, 4, done.stderr)
-        self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
-        self.assertEqual(list(self.folder.iterdir()), [])
+    def test_a_method_that_throws_or_returns_nothing_to_go_on_with_is_named(self):
+        patches, blocks = DATA / 'rod/rod_patches.k', DATA / 'rod/rod_blocks.k'
+        thrown = (('number', 'an exception of unknown kind'), ('silent', 'an exception without a message'))
+        not_finite = ('infinite', 'not finite')
+        for stage, arguments, what, faults in (
+                ('improve', ('-i', blocks, '-o', 'out.vtk', '-m'), 'mesh',
+                 (('empty', 'no hexahedra'), not_finite, ('edges', 'sharp edge'))),
+                ('map', ('-i', patches, '-p', blocks, '-o', 'out.vtk', '--method'), 'mesh',
+                 (('empty', 'no hexahedra'), not_finite, ('parts', 'part 0'), ('unused', 'no hexahedron uses'))),
+                ('polycube', ('-i', patches, '-o', 'out.k', '-c', '1', '--method'), 'polycube',
+                 (('empty', 'no patches'), not_finite, ('triangles', 'triangles have a patch'), ('patch', 'in patch 1000'),
+                  ('loops', 'vertex -7'), ('corner', 'is no vertex'), ('points', 'points'), ('quads', 'quads'),
+                  ('quad', 'a quad has'), ('edge', 'an edge has'))),
+                ('spline', ('-i', blocks, '-o', 'out.bext', '--method'), 'spline',
+                 (('empty', 'no elements'), not_finite, ('weights', 'weights'), ('weight', 'not positive'), ('rows', 'rows'),
+                  ('columns', 'control point that is not there'), ('values', 'coefficient'), ('points', 'an element has'),
+                  ('lists', 'lists'), ('level', 'a level has')))):
+            for how, words in (*thrown, *faults):
+                with self.subTest(stage=stage, how=how):
+                    done = subprocess.run([PROGRAM, stage, *map(str, arguments), f'faulty-{how}', '--plugin', FAULTY],
+                                          cwd=self.folder, stdin=subprocess.DEVNULL, capture_output=True, text=True)
+                    self.assertEqual(done.returncode, 4, done.stderr)
+                    self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
+                    result = 'failed: ' if (how, words) in thrown else f'gives no {what}: '
+                    self.assertIn(f"method 'faulty-{how}' of stage '{stage}' (plug-in {FAULTY}) {result}", done.stderr)
+                    self.assertIn(words, done.stderr)
+                    self.assertEqual(list(self.folder.iterdir()), [])
 
     def test_a_reader_that_throws_or_returns_nonsense_is_one_line_and_an_exit_code(self):
-        for first, code, words in (('e', 3, 'mesh.faulty:1: no luck'), ('s', 4, 'no luck'), ('i', 3, 'a point that is not there'),
+        for first, code, words in (('e', 3, 'mesh.faulty:1: no luck'), ('s', 4, 'no luck'), ('4', 4, "method '.faulty' of stage 'read'"),
+                                   ('0', 4, 'an exception without a message'), ('i', 3, 'a point that is not there'),
                                    ('n', 3, 'finite'), ('o', 3, 'do not fit'), ('p', 3, 'do not fit'),
                                    ('h', 3, 'a point that is not there'), ('.', 3, 'holds no polygons')):
             with self.subTest(first=first):

@@ -1,6 +1,7 @@
 #include "hexspline/console.h"
 
 #include <hex/base/error.h>
+#include <hex/base/method_call.h>
 #include <hex/io/output_file.h>
 
 #include <pthread.h>
@@ -14,10 +15,8 @@
 #include <chrono>
 #include <cstdio>
 #include <exception>
-#include <new>
 #include <optional>
 #include <string_view>
-#include <system_error>
 #include <thread>
 
 namespace cli {
@@ -112,15 +111,6 @@ bool interrupted() {
            sigismember(&waiting, SIGTERM) == 1;
 }
 
-bool is_out_of_memory_or_threads(const std::exception& problem) {
-    if (dynamic_cast<const std::bad_alloc*>(&problem) != nullptr) return true;
-    if (const auto* of_system = dynamic_cast<const std::system_error*>(&problem))
-        return of_system->code() == std::errc::resource_unavailable_try_again ||
-               of_system->code() == std::errc::not_enough_memory;
-    // oneTBB names the call that failed.
-    return std::string_view(problem.what()).starts_with("pthread_");
-}
-
 void end_well_whatever_is_thrown() {
     std::set_terminate([] {
         hex::io::abandon_output_files();
@@ -129,8 +119,8 @@ void end_well_whatever_is_thrown() {
         try {
             if (std::current_exception()) throw;
         } catch (const std::exception& problem) {
-            if (is_out_of_memory_or_threads(problem)) kind = hex::ErrorKind::output;
-            what = problem.what();
+            if (hex::is_out_of_memory_or_threads(problem)) kind = hex::ErrorKind::output;
+            if (*problem.what() != '\0') what = problem.what();
         } catch (...) {
             // said above
         }

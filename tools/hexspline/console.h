@@ -33,9 +33,7 @@ void take_time_after_interrupt();
 /// What is thrown where nobody can catch it (in a thread of a library, say) ends the program like any error:
 /// one line, an exit code, no unfinished files.
 void end_well_whatever_is_thrown();
-/// Whether an exception of the standard library or of oneTBB says that there is no more memory, or that no
-/// more threads may be started, which is what too little memory for their stacks looks like.
-bool is_out_of_memory_or_threads(const std::exception& problem);
+/// For what hex::is_out_of_memory_or_threads() says.
 inline constexpr const char* out_of_memory_or_threads =
     "out of memory, or of threads that may be started; raise the limit (ulimit -v, ulimit -u)";
 

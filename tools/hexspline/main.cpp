@@ -5,6 +5,7 @@
 #include "hexspline/console.h"
 
 #include <hex/base/error.h>
+#include <hex/base/method_call.h>
 #include <hex/base/version.h>
 
 #include <cstdio>
@@ -31,7 +32,7 @@ int run_command(const cli::Command& command, const std::vector<std::string>& arg
 /// One line, whatever the message holds: that of a plug-in may have several.
 int report(const std::string& command, std::string message, int code) {
     for (char& c : message)
-        if (static_cast<unsigned char>(c) < 32) c = ' ';
+        if (static_cast<unsigned char>(c) < 32 || c == 127) c = ' ';
     std::cerr << "hexspline" << (command.empty() ? "" : " " + command) << ": error: " << message << '\n';
     return code;
 }
@@ -46,9 +47,9 @@ int guarded(const std::string& name, const Work& work) {
             return hex::exit_code(error.kind());
         return report(name, error.what(), hex::exit_code(error.kind()));
     } catch (const std::exception& problem) {
-        if (cli::is_out_of_memory_or_threads(problem))
+        if (hex::is_out_of_memory_or_threads(problem))
             return report(name, cli::out_of_memory_or_threads, hex::exit_code(hex::ErrorKind::output));
-        return report(name, std::string("internal error: ") + problem.what(),
+        return report(name, "internal error: " + hex::message_of(problem),
                       hex::exit_code(hex::ErrorKind::no_result));
     } catch (...) {
         // A plug-in may throw anything.

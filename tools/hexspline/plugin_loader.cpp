@@ -2,6 +2,7 @@
 
 #include <hex/base/error.h>
 #include <hex/base/isolated.h>
+#include <hex/base/method_call.h>
 #include <hex/base/plugin.h>
 #include <hex/base/registry.h>
 
@@ -11,6 +12,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <sstream>
+#include <string_view>
 
 namespace cli {
 namespace {
@@ -49,14 +51,26 @@ void require_regular_file(const std::string& file) {
     if (!std::filesystem::is_regular_file(status)) reject(file, "is no plug-in, not even a regular file");
 }
 
+/// What dlopen() says of the file, without the file and without what Boost puts around it: "boost::dll::
+/// shared_library::load() failed (dlerror system message: FILE: REASON): LAST ERROR".
+std::string loader_reason(const std::string& path, const std::exception& problem) {
+    std::string text = hex::message_of(problem);
+    constexpr std::string_view mark = "dlerror system message: ";
+    const auto start = text.find(mark), end = text.rfind("): ");
+    if (start == std::string::npos || end == std::string::npos || end < start + mark.size()) return text;
+    text = text.substr(start + mark.size(), end - start - mark.size());
+    return text.starts_with(path + ": ") ? text.substr(path.size() + 2) : text;
+}
+
 /// Loads the library and lets it register its methods. Throws hex::Error{bad_input}.
 void open_plugin(const std::string& file) {
     const OriginGuard origin(file);
+    const std::string path = std::filesystem::absolute(file).string();
     boost::dll::shared_library library;
     try {
-        library.load(std::filesystem::absolute(file).string(), boost::dll::load_mode::rtld_now);
+        library.load(path, boost::dll::load_mode::rtld_now);
     } catch (const std::exception& problem) {
-        reject(file, std::string("cannot be loaded as a plug-in: ") + problem.what());
+        reject(file, "cannot be loaded as a plug-in: " + loader_reason(path, problem));
     }
     if (!library.has(hex::plugin_symbol))
         reject(file, "is no hexspline plug-in: it does not export '" + std::string(hex::plugin_symbol) + "'",
@@ -71,9 +85,9 @@ void open_plugin(const std::string& file) {
     try {
         info.register_methods();
     } catch (const std::exception& problem) {
-        reject(file, std::string("failed to register its methods: ") + problem.what());
+        reject(file, "failed to register its methods: " + hex::message_of(problem));
     } catch (...) {
-        reject(file, "failed to register its methods");
+        reject(file, "failed to register its methods: an exception of unknown kind");
     }
     loaded_libraries().push_back(std::move(library));
 }

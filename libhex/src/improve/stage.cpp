@@ -1,3 +1,6 @@
+#include "volume/mesh_result.h"
+
+#include <hex/base/method_call.h>
 #include <hex/base/parallel.h>
 #include <hex/improve/improve.h>
 
@@ -21,6 +24,19 @@ void check_options(const HexMesh& mesh, const ImproveOptions& options) {
         refuse("the target is not in (0, 1]", "it is a scaled Jacobian; 1 means as good as possible");
 }
 
+/// Throws Error{bad_input} for what nobody could go on with.
+void require_result(const ImproveResult& result, const TriangleMesh* surface, const HexMesh& mesh) {
+    require_mesh(result.mesh);
+    const auto vertices =
+        static_cast<std::int64_t>(surface != nullptr ? surface->n_vertices() : mesh.vertex_count());
+    for (const auto& edge : result.report.feature_edges)
+        for (const std::int64_t v : edge)
+            if (v < 0 || v >= vertices)
+                throw Error(ErrorKind::bad_input, "a sharp edge has vertex " + std::to_string(v) +
+                                                      ", which is not one of 0.." +
+                                                      std::to_string(vertices - 1));
+}
+
 }  // namespace
 
 Registry<Improver>& improvers() {
@@ -29,10 +45,13 @@ Registry<Improver>& improvers() {
 }
 
 ImproveResult improve(const HexMesh& mesh, const ImproveOptions& options, const Context& context) {
-    const auto improver = improvers().make(options.method);
+    const MethodCall<Improver> method(improvers(), options.method);
     check_options(mesh, options);
     const QualitySummary before = summarize(mesh, context);
-    ImproveResult result = with_threads(context, [&] { return improver->improve(mesh, options, context); });
+    ImproveResult result = with_threads(context, [&] {
+        return method([&](const Improver& improver) { return improver.improve(mesh, options, context); });
+    });
+    method.require("mesh", [&] { require_result(result, options.surface, mesh); });
     result.report.method = options.method;
     result.report.before = before;
     result.report.after = summarize(result.mesh, context);

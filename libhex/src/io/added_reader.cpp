@@ -3,6 +3,7 @@
 #include "io/input_file.h"
 
 #include <hex/base/error.h>
+#include <hex/base/method_call.h>
 #include <hex/io/mesh_file.h>
 #include <hex/io/reader.h>
 
@@ -66,7 +67,8 @@ bool has_added_reader(const std::filesystem::path& path) {
 
 MeshData read_with_added_reader(const std::filesystem::path& path) {
     const InputFile file(path);
-    MeshData data = registry().make(extension_of(path))->read(file.name(), file.bytes());
+    const MethodCall<Reader> method(registry(), extension_of(path));
+    MeshData data = method([&](const Reader& reader) { return reader.read(file.name(), file.bytes()); });
     require_mesh(data, path);
     return data;
 }

@@ -1,4 +1,7 @@
+#include "volume/mesh_result.h"
+
 #include <hex/base/error.h>
+#include <hex/base/method_call.h>
 #include <hex/map/map.h>
 
 #include <fmt/format.h>
@@ -43,7 +46,13 @@ MapResult map(const TriangleMesh& surface, const HexMesh& blocks, const MapOptio
         throw Error(ErrorKind::usage, "an edge length and a number of hexahedra exclude each other");
     if (!(options.snap_warning >= 0.0))
         throw Error(ErrorKind::usage, "the distance to warn of must be a number that is not negative");
-    MapResult result = mappers().make(options.method)->map(surface, blocks, options, context);
+    const MethodCall<Mapper> method(mappers(), options.method);
+    MapResult result =
+        method([&](const Mapper& mapper) { return mapper.map(surface, blocks, options, context); });
+    method.require("mesh", [&] {
+        require_mesh(result.mesh);
+        require_compact(result.mesh, blocks.cell_count());
+    });
     result.report.method = options.method;
     return result;
 }

@@ -1,4 +1,5 @@
 #include <hex/base/error.h>
+#include <hex/base/method_call.h>
 #include <hex/base/parallel.h>
 #include <hex/segment/charts.h>
 #include <hex/segment/segment.h>
@@ -38,15 +39,22 @@ void apply_manual(const SegmentOptions& options, SegmentResult& result) {
     }
 }
 
+/// Throws Error{bad_input} for a matrix that does more than turn, but for rounding.
+void require_rotation(const Eigen::Matrix3d& matrix) {
+    constexpr double rounding = 1e-6;
+    const double off = (matrix.transpose() * matrix - Eigen::Matrix3d::Identity()).cwiseAbs().maxCoeff();
+    if (!matrix.allFinite() || off > rounding || matrix.determinant() < 0.0)
+        throw Error(ErrorKind::bad_input, "its rotation is none");
+}
+
 /// Checks what a method gives, and adds what it leaves to the stage.
-void complete(const TriangleMesh& mesh, const SegmentOptions& options, SegmentResult& result) {
+void complete(const TriangleMesh& mesh, const SegmentOptions& options, const MethodCall<Segmenter>& method,
+              SegmentResult& result) {
     result.report.method = options.method;
-    try {
+    method.require("labelling", [&] {
         require_labels(result.segmentation, mesh.n_faces());
-    } catch (const Error& error) {
-        throw Error(ErrorKind::no_result,
-                    "method '" + options.method + "' gives no labelling: " + error.problem(), error.where());
-    }
+        require_rotation(result.rotation);
+    });
     apply_manual(options, result);
     for (const int label : result.segmentation.labels)
         ++result.report.label_counts[static_cast<std::size_t>(label)];
@@ -91,14 +99,15 @@ SegmentResult segment(const TriangleMesh& mesh, const SegmentOptions& options, c
         throw Error(ErrorKind::usage, "the weight of the boundary-enhanced term must be a number >= 0");
     if (options.attempt < 0 || options.attempt > 3)
         throw Error(ErrorKind::usage, "the attempt must be 0, 1, 2 or 3");
-    const auto method = segmenters().make(options.method);
+    const MethodCall<Segmenter> method(segmenters(), options.method);
     if (mesh.n_faces() == 0) throw Error(ErrorKind::bad_input, "the surface has no triangles");
     require_in_range(options.manual, "manual label", mesh.n_faces());
     require_in_range(options.avoid, "label to avoid", mesh.n_faces());
     return with_threads(context, [&] {
-        SegmentResult result = method->segment(mesh, options, context);
-        complete(mesh, options, result);
-        if (result.next_attempt) complete(mesh, options, *result.next_attempt);
+        SegmentResult result =
+            method([&](const Segmenter& segmenter) { return segmenter.segment(mesh, options, context); });
+        complete(mesh, options, method, result);
+        if (result.next_attempt) complete(mesh, options, method, *result.next_attempt);
         return result;
     });
 }
