@@ -49,6 +49,35 @@ class Check(CommandTest):
         self.check('row.vtk', '--metric', 'scaled_jacobian:0.99', '--bad-share', '0.2')
         self.check('row.vtk', '--metric', 'scaled_jacobian:0.99', '--bad-share', '0.19', code=1)
 
+    def bars(self, name, count):
+        """Boxes of 1 x 1 x 1, 2 x 1 x 1, ...: the aspect ratio of the i-th is i."""
+        points = [(x * (i + 1), y, z + 2 * i) for i in range(count) for x, y, z in CUBE]
+        write_vtk(self.folder / name, points, [range(8 * i, 8 * i + 8) for i in range(count)])
+
+    def test_exactly_the_share_may_be_bad(self):
+        for count in (37, 100, 1000):
+            self.bars('bars.vtk', count)
+            # Those where the product of share and count is off the number (0.29 * 100 < 29), and some others.
+            off = [k for k in range(count) if k / count * count != k]
+            for bad in (1, count // 2, count - 1, *off[:5]):
+                limit = ['--metric', f'aspect_ratio::{count - bad}', '--bad-share']
+                self.run_program('check', 'bars.vtk', *limit, repr(bad / count))
+            self.run_program('check', 'bars.vtk', *limit, repr((bad - 0.001) / count), code=1)
+
+    def test_a_percentile_is_that_of_the_nearest_rank(self):
+        self.bars('bars.vtk', 100)
+        self.run_program('check', 'bars.vtk', '--percentile', 'aspect_ratio:7:7:7')
+        self.run_program('check', 'bars.vtk', '--percentile', 'aspect_ratio:7.01:8:8')
+
+    def test_only_a_minimum_of_the_scaled_jacobian_replaces_the_demand_that_nothing_is_inverted(self):
+        points, cells = grid(3, 1, 1)
+        write_vtk(self.folder / 'inverted.vtk', [(1.5, 0.5, 0.5) if p == (3, 1, 1) else p for p in points], cells)
+        (self.folder / 'most.json').write_text('{"metrics": {"scaled_jacobian": {"max": 2}}}')
+        for limit in (['--metric', 'scaled_jacobian::2'], ['--percentile', 'scaled_jacobian:99:0'], ['--config', 'most.json']):
+            report, _ = self.check('inverted.vtk', *limit, code=1)
+            self.assertEqual([gate['name'] for gate in report['gates'] if not gate['passed']], ['inverted'])
+        self.check('inverted.vtk', '--metric', 'scaled_jacobian:-1:2')
+
     def test_percentiles(self):
         self.check('row.vtk', '--percentile', 'scaled_jacobian:50:0.99')
         self.check('row.vtk', '--percentile', 'scaled_jacobian:20:0.99', code=1)

@@ -154,6 +154,21 @@ TEST(MetricStatistics, OfAListOfNumbers) {
     EXPECT_EQ(percentile({}, 50), 0);
 }
 
+TEST(HexMetrics, APercentileHasTheNearestRankForEveryPercentThatIsWritten) {
+    for (const std::size_t count : {1UL, 7UL, 37UL, 100UL, 250UL, 1000UL, 3000UL}) {
+        std::vector<double> ranks(count);
+        for (std::size_t i = 0; i < count; ++i) ranks[i] = static_cast<double>(i + 1);
+        // Tenths of a percent, in whole numbers: ceil(tenths * count / 1000).
+        for (std::size_t tenths = 1; tenths <= 1000; tenths += tenths % 10 == 9   ? 1
+                                                               : tenths % 10 == 0 ? 1
+                                                                                  : 8) {
+            const double percent = static_cast<double>(tenths) / 10.0;
+            const std::size_t rank = (tenths * count + 999) / 1000;
+            EXPECT_EQ(percentile(ranks, percent), static_cast<double>(rank)) << percent << " of " << count;
+        }
+    }
+}
+
 TEST(WorstCells, ComeInTheOrderOfTheirBadnessThenOfTheirIds) {
     const std::vector<double> values = {3, 1, 2, 1, 9};
     using Ids = std::vector<CellId>;

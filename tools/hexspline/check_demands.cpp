@@ -212,9 +212,9 @@ void Demands::add(const MetricLimit& limit) {
     limits.push_back(limit);
 }
 
-bool Demands::limits_every_element(HexMetric metric) const {
+bool Demands::has_minimum(HexMetric metric) const {
     return std::any_of(limits.begin(), limits.end(), [&](const MetricLimit& limit) {
-        return limit.metric == metric && limit.has_limits() && !limit.percentile;
+        return limit.metric == metric && limit.min.has_value() && !limit.percentile;
     });
 }
 

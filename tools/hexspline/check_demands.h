@@ -38,7 +38,8 @@ struct Demands {
 
     /// A limit for the same metric (and percentile) replaces the one that is there.
     void add(const MetricLimit& limit);
-    bool limits_every_element(hex::HexMetric metric) const;
+    /// Every element (but for a share of bad ones) has a smallest value of the metric that it must reach.
+    bool has_minimum(hex::HexMetric metric) const;
 };
 
 /// "duplicate-nodes", "unused-nodes", "open-boundary", "pinched-nodes", "several-components".

@@ -55,8 +55,10 @@ Gate element_gate(const MetricLimit& limit, double bad_share, const Measured& me
     if (allowed > 0) gate.demand += fmt::format(" for all but a share of {:g}", allowed);
     gate.bad = outside.size();
     for (std::size_t i = 0; i < listed; ++i) gate.cells.emplace_back(outside[i].second);
+    // The quotient is rounded like the decimal that was typed: exactly at the share asked for they are equal,
+    // which a product of share and count is not (0.29 * 100 < 29).
     const double count = static_cast<double>(measured.values.size());
-    gate.passed = static_cast<double>(gate.bad) <= allowed * count;
+    gate.passed = gate.bad == 0 || static_cast<double>(gate.bad) / count <= allowed;
     const auto& statistics = measured.statistics;
     gate.found = "smallest " + short_number(statistics.min) + ", largest " + short_number(statistics.max);
     if (gate.bad > 0)
@@ -153,7 +155,7 @@ std::vector<Gate> evaluate_gates(const Demands& demands, const Findings& finding
     std::vector<Gate> gates;
     if (findings.bezier) {
         gates.push_back(bezier_gate(*findings.bezier, worst));
-    } else if (!demands.limits_every_element(HexMetric::scaled_jacobian)) {
+    } else if (!demands.has_minimum(HexMetric::scaled_jacobian)) {
         Gate gate = counting_gate("inverted", "no inverted element", findings.inverted.size());
         const auto listed = std::min(worst, findings.inverted.size());
         gate.cells.assign(findings.inverted.begin(),

@@ -181,10 +181,16 @@ double select(std::vector<double>& values, std::size_t rank) {
     return *place;
 }
 
-/// Nearest rank.
+/// Nearest rank, counted from 0: the first whose share of the values reaches `percent`. The shares are
+/// quotients, which are rounded like the decimal that `percent` was written as; products of both are a little
+/// off.
 std::size_t rank_of(double percent, std::size_t count) {
-    const double rank = std::ceil(percent / 100.0 * static_cast<double>(count)) - 1.0;
-    return static_cast<std::size_t>(std::clamp(rank, 0.0, static_cast<double>(count - 1)));
+    const double n = static_cast<double>(count);
+    const auto reaches = [&](double rank) { return 100.0 * rank / n >= percent; };
+    double rank = std::clamp(std::ceil(percent / 100.0 * n), 1.0, n);
+    while (rank > 1 && reaches(rank - 1)) --rank;
+    while (rank < n && !reaches(rank)) ++rank;
+    return static_cast<std::size_t>(rank) - 1;
 }
 
 std::string letters_of(std::string_view name) {

@@ -232,7 +232,7 @@ const RegisterCommand registered(
     {.name = "check",
      .order = 60,
      .summary = "measure a hexahedral mesh and fail when it is not good enough",
-     .description = "Without limits for the scaled Jacobian, an inverted element fails.\n"
+     .description = "Without a minimum for the scaled Jacobian, an inverted element fails.\n"
                     "Of a spline, the Jacobian of every Bezier element has to be proved positive.\n"
                     "Exit code 0: good; 1: not as good as asked for.",
      .sample_runs =
