@@ -125,10 +125,98 @@ class Check(CommandTest):
         failed = [gate['name'] for gate in report['gates'] if not gate['passed']]
         self.assertIn('baseline-scaled_jacobian-min', failed)
         self.assertIn('baseline-aspect_ratio-max', failed)
-        self.check('row.vtk', '--baseline', 'good.json', '--baseline-tolerance', '3')
+        # What was 0 has no relative change.
+        report, _ = self.check('row.vtk', '--baseline', 'good.json', '--baseline-tolerance', '3', code=1)
+        failed = {gate['name'] for gate in report['gates'] if not gate['passed']}
+        self.assertEqual(failed, {'baseline-skew-max', 'baseline-skew-mean'})
+        self.check('good.vtk', '--baseline', 'good.json', '--baseline-tolerance', '0')
         (self.folder / 'bad.json').write_text('{"min_scaled_jacobian": "x"}')
         for bad in ('bad.json', 'row.vtk', 'missing.json'):
             self.run_program('check', 'row.vtk', '--baseline', bad, code=3)
+        for text in ('{"command": "improve", "min_scaled_jacobian": 0.1}', '{"min_scaled_jacobian": 0.1, "metrics": {}}',
+                     '{"command": "check", "min_scaled_jacobian": 0.1}', '{"command": "check", "metrics": {}}', '[]'):
+            (self.folder / 'bad.json').write_text(text)
+            self.assertIn('is not a report of hexspline check', self.run_program('check', 'row.vtk', '--baseline', 'bad.json', code=3).stderr)
+
+    def failed_against(self, baseline, mesh, *arguments):
+        report, _ = self.check(mesh, '--baseline', baseline, *arguments, code=1)
+        return [gate['name'] for gate in report['gates'] if not gate['passed']]
+
+    def baseline_of(self, mesh, *arguments):
+        self.check(mesh, *arguments)
+        (self.folder / 'report.json').rename(self.folder / 'old.json')
+
+    def test_the_tolerance_of_a_baseline_is_relative(self):
+        def cube(name, edge, lean):
+            write_vtk(self.folder / name, [(edge * (x + lean * z), edge * y, edge * z) for x, y, z in CUBE], [range(8)])
+        cube('straight.vtk', 1, 0)
+        cube('leaning.vtk', 1, 1e-10)
+        self.baseline_of('straight.vtk')
+        self.assertEqual(self.failed_against('old.json', 'leaning.vtk'), ['baseline-skew-max', 'baseline-skew-mean'])
+        # A mesh so small that its volumes are far below the tolerance.
+        cube('small.vtk', 1e-5, 0)
+        write_vtk(self.folder / 'inside_out.vtk', [(1e-5 * x, 1e-5 * y, -1e-5 * z) for x, y, z in CUBE], [range(8)])
+        self.baseline_of('small.vtk', '--metric', 'jacobian')
+        self.assertIn('baseline-jacobian-min', self.failed_against('old.json', 'inside_out.vtk', '--min-scaled-jacobian', '-1'))
+
+    def test_the_order_of_the_corners_is_no_change_against_a_baseline(self):
+        points, cells = grid(3, 3, 3)
+        for name, move in (('boxes', lambda x, y, z: (0.1 * x, 0.7 * y, 0.3 * z)),
+                           ('bent', lambda x, y, z: (x + 0.07 * y * z, y + 0.1 * x * x, z + 0.13 * x - 0.02 * y * y))):
+            moved = [move(*p) for p in points]
+            write_vtk(self.folder / f'{name}.vtk', moved, cells)
+            turned = [[c[i] for i in ((1, 2, 3, 0, 5, 6, 7, 4), (0, 3, 7, 4, 1, 2, 6, 5))[n % 2]] for n, c in enumerate(cells)]
+            write_vtk(self.folder / f'{name}_turned.vtk', moved, turned[::-1])
+            # VTK's edge ratio looks at six of the edges, and depends on the order by more than round-off.
+            asked = [f'--metric={m}' for m in self.check(f'{name}.vtk', '--metric', 'all')[0]['metrics'] if m != 'edge_ratio']
+            self.baseline_of(f'{name}.vtk', *asked)
+            self.check(f'{name}_turned.vtk', '--baseline', 'old.json')
+
+    def test_everything_in_a_baseline_is_measured(self):
+        write_vtk(self.folder / 'good.vtk', *grid(10, 1, 1))
+        self.baseline_of('good.vtk', '--metric', 'oddy')
+        self.assertIn('baseline-oddy-max', self.failed_against('old.json', 'row.vtk'))
+        # What cannot be measured is told.
+        old = json.loads((self.folder / 'old.json').read_text())
+        old['surface_distance'] = {'max_percent': 0.1, 'diagonal': 1}
+        old['metrics']['later'] = old['metrics']['oddy']
+        (self.folder / 'old.json').write_text(json.dumps(old))
+        _, done = self.check('good.vtk', '--baseline', 'old.json')
+        self.assertRegex(done.stderr, r'old\.json is not compared: .*--surface.*later')
+        self.assertEqual(len(done.stderr.splitlines()), 1)
+
+    def test_no_demand_is_lost(self):
+        report, _ = self.check('row.vtk', '--metric', 'aspect_ratio:0.5', '--metric', 'aspect_ratio::1.1', '--metric', 'aspect_ratio',
+                               '--percentile', 'skew:50:0', '--percentile', 'skew:50::1', '--metric', 'AspectRatio:0.5', code=1)
+        self.assertEqual([gate['demand'] for gate in report['gates'][1:]], ['from 0.5 to 1.1', 'from 0 to 1'])
+        for wrong in (['--metric', 'skew::1', '--metric', 'Skew::0.5'], ['--metric', 'skew::1', '--metric', 'skew:2'],
+                      ['--min-scaled-jacobian', '0.1', '--metric', 'scaled_jacobian:0.2'],
+                      ['--percentile', 'skew:50:0', '--percentile', 'skew:50.0:0.1']):
+            self.assertRegex(self.run_program('check', 'row.vtk', *wrong, code=2).stderr, 'different|larger')
+        for text, told in (('{"metrics": {"aspect_ratio": {"max": 2, "percentile": 50, "bad_share": 0.01}}}', 'aspect_ratio'),
+                           ('{"metrics": {"skew": {"max": 0.1}, "skew": {"max": 2}}}', "'skew' is there twice"),
+                           ('{"metrics": {"skew": {"max": 0.1, "max": 2}}}', "'max' is there twice"),
+                           ('{"bad_share": 0, "bad_share": 1}', "'bad_share' is there twice"),
+                           ('{"metrics": {"skew": {"max": 0.1}, "Skew": {"max": 2}}}', 'skew'),
+                           ('{"surface": ""}', "'surface'"), ('{"baseline": ""}', "'baseline'")):
+            (self.folder / 'c.json').write_text(text)
+            message = self.run_program('check', 'row.vtk', '--config', 'c.json', code=3).stderr
+            self.assertIn('c.json', message)
+            self.assertIn(told, message)
+        # The same key in two objects is no second one.
+        (self.folder / 'c.json').write_text('{"metrics": {"skew": {"max": 1}, "aspect_ratio": {"max": 3}}}')
+        self.check('row.vtk', '--config', 'c.json')
+
+    def test_a_failure_can_be_seen_in_its_numbers(self):
+        write_vtk(self.folder / 'long.vtk', [(10.0000004 * x, y, z) for x, y, z in CUBE], [range(8)])
+        report, done = self.check('long.vtk', '--metric', 'aspect_ratio::10', code=1)
+        self.assertIn('FAILED  aspect_ratio: at most 10; found: smallest 10.0000004, largest 10.0000004', done.stdout)
+        self.assertEqual(report['metrics']['aspect_ratio']['max'], 10.0000004)
+        _, done = self.check('long.vtk', '--metric', 'aspect_ratio::10.00000038', '--metric', 'volume:11.23456789:20', code=1)
+        self.assertIn('at most 10.00000038; found: smallest 10.0000004,', done.stdout)
+        self.assertIn('from 11.23456789 to 20; found: smallest 10,', done.stdout)
+        _, done = self.check('long.vtk', '--percentile', 'aspect_ratio:99.95::10', code=1)
+        self.assertIn('aspect_ratio-percentile-99.95: at most 10; found: 10.0000004', done.stdout)
 
     def test_inverted_elements_come_with_ids_and_centres(self):
         points, cells = grid(3, 1, 1)

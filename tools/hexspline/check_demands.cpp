@@ -119,8 +119,18 @@ class ConfigReader {
 
     Json parse() const {
         const std::string text = hex::io::read_text_file(file_);
+        // JSON leaves open which of two entries with the same key holds: none does here.
+        std::vector<std::set<std::string>> open_objects;
+        const auto refuse_twice = [&](int, Json::parse_event_t event, Json& key) {
+            if (event == Json::parse_event_t::object_start) open_objects.emplace_back();
+            if (event == Json::parse_event_t::object_end) open_objects.pop_back();
+            if (event == Json::parse_event_t::key &&
+                !open_objects.back().insert(key.get<std::string>()).second)
+                fail("the key '" + key.get<std::string>() + "' is there twice");
+            return true;
+        };
         try {
-            return Json::parse(text);
+            return Json::parse(text, refuse_twice);
         } catch (const Json::exception& problem) {
             fail(std::string("is not JSON: ") + problem.what());
         }
@@ -132,13 +142,18 @@ class ConfigReader {
             demands.bad_share = number(value, key, 0, 1);
         } else if (key == "metrics") {
             if (!value.is_object()) fail("'metrics' should be an object {...}");
-            for (const auto& [name, limits] : value.items()) demands.add(limit(name, limits));
+            std::set<HexMetric> seen;
+            for (const auto& [name, limits] : value.items()) {
+                const MetricLimit read = limit(name, limits);
+                if (!seen.insert(read.metric).second) fail("'" + name + "' is there twice, in two spellings");
+                demands.add(read);
+            }
         } else if (key == "max_surface_distance") {
             demands.max_surface_distance = number(value, key, 0, 1e30);
         } else if (key == "surface") {
-            demands.surface = beside(text(value, key));
+            demands.surface = beside(value, key);
         } else if (key == "baseline") {
-            demands.baseline = beside(text(value, key));
+            demands.baseline = beside(value, key);
         } else if (key == "forbid") {
             if (!value.is_array()) fail("'forbid' should be a list [...]");
             for (const Json& kind : value) demands.forbidden.insert(defect(text(kind, key)));
@@ -168,6 +183,8 @@ class ConfigReader {
         }
         if (result.min && result.max && *result.min > *result.max)
             fail("the minimum of '" + name + "' is larger than its maximum");
+        if (result.percentile && result.bad_share)
+            fail("'" + name + "' has a percentile and a bad_share, of which only one can be meant");
         if ((result.percentile || result.bad_share) && !result.has_limits())
             fail("'" + name + "' has a " + (result.percentile ? "percentile" : "bad_share") +
                  " and no limit (min, max) for it");
@@ -196,7 +213,11 @@ class ConfigReader {
         }
         return result;
     }
-    std::filesystem::path beside(const std::string& name) const { return file_.parent_path() / name; }
+    std::filesystem::path beside(const Json& value, const std::string& key) const {
+        const std::string name = text(value, key);
+        if (name.empty()) fail("'" + key + "' should be the name of a file, and is empty");
+        return file_.parent_path() / name;
+    }
 
     std::filesystem::path file_;
 };
@@ -207,6 +228,29 @@ void Demands::add(const MetricLimit& limit) {
     for (MetricLimit& known : limits) {
         if (known.metric != limit.metric || known.percentile != limit.percentile) continue;
         if (limit.has_limits() || !known.has_limits()) known = limit;
+        return;
+    }
+    limits.push_back(limit);
+}
+
+void Demands::merge(const MetricLimit& limit) {
+    for (MetricLimit& known : limits) {
+        if (known.metric != limit.metric || known.percentile != limit.percentile) continue;
+        const std::string name(hex::info(limit.metric).name);
+        const auto take = [&](std::optional<double>& bound, const std::optional<double>& other,
+                              const char* what) {
+            if (bound && other && *bound != *other) {
+                std::string values;
+                hex::io::append_number(values, *bound);
+                values += " and ";
+                hex::io::append_number(values, *other);
+                usage_error(std::string("two options give '") + name + "' different " + what + ", " + values);
+            }
+            if (other) bound = other;
+        };
+        take(known.min, limit.min, "minima");
+        take(known.max, limit.max, "maxima");
+        check_order(known, name);
         return;
     }
     limits.push_back(limit);

@@ -38,6 +38,9 @@ struct Demands {
 
     /// A limit for the same metric (and percentile) replaces the one that is there.
     void add(const MetricLimit& limit);
+    /// Its bounds hold besides those that are there for the same metric (and percentile). Throws
+    /// hex::Error{usage} when both have the same bound with different values.
+    void merge(const MetricLimit& limit);
     /// Every element (but for a share of bad ones) has a smallest value of the metric that it must reach.
     bool has_minimum(hex::HexMetric metric) const;
 };

@@ -1,7 +1,6 @@
 #include "hexspline/check_gates.h"
 
-#include <hex/base/error.h>
-#include <hex/io/text_file.h>
+#include <hex/io/number_text.h>
 
 #include <fmt/format.h>
 
@@ -11,13 +10,18 @@
 namespace cli {
 namespace {
 
-using hex::BetterWhen;
 using hex::CellId;
 using hex::HexMetric;
 
 std::string range_text(const MetricLimit& limit) {
-    if (limit.min && limit.max) return "from " + short_number(*limit.min) + " to " + short_number(*limit.max);
-    return limit.min ? "at least " + short_number(*limit.min) : "at most " + short_number(*limit.max);
+    if (limit.min && limit.max) return "from " + exact_number(*limit.min) + " to " + exact_number(*limit.max);
+    return limit.min ? "at least " + exact_number(*limit.min) : "at most " + exact_number(*limit.max);
+}
+
+/// Six digits when they say on which side of the limits a value is.
+std::string found_text(const MetricLimit& limit, double value) {
+    const std::string text = limit.min ? number_beside(value, *limit.min) : short_number(value);
+    return limit.max && text == short_number(value) ? number_beside(value, *limit.max) : text;
 }
 
 bool in_range(const MetricLimit& limit, double value) {
@@ -28,9 +32,9 @@ bool in_range(const MetricLimit& limit, double value) {
 Gate percentile_gate(const MetricLimit& limit, const Measured& measured) {
     const double value = hex::percentile(measured.values, *limit.percentile);
     Gate gate;
-    gate.name = std::string(hex::info(limit.metric).name) + "-percentile-" + short_number(*limit.percentile);
+    gate.name = std::string(hex::info(limit.metric).name) + "-percentile-" + exact_number(*limit.percentile);
     gate.demand = range_text(limit);
-    gate.found = short_number(value);
+    gate.found = found_text(limit, value);
     gate.passed = measured.values.empty() || in_range(limit, value);
     return gate;
 }
@@ -52,7 +56,7 @@ Gate element_gate(const MetricLimit& limit, double bad_share, const Measured& me
     gate.name = info.name;
     gate.demand = range_text(limit);
     const double allowed = limit.bad_share.value_or(bad_share);
-    if (allowed > 0) gate.demand += fmt::format(" for all but a share of {:g}", allowed);
+    if (allowed > 0) gate.demand += " for all but a share of " + exact_number(allowed);
     gate.bad = outside.size();
     for (std::size_t i = 0; i < listed; ++i) gate.cells.emplace_back(outside[i].second);
     // The quotient is rounded like the decimal that was typed: exactly at the share asked for they are equal,
@@ -60,7 +64,8 @@ Gate element_gate(const MetricLimit& limit, double bad_share, const Measured& me
     const double count = static_cast<double>(measured.values.size());
     gate.passed = gate.bad == 0 || static_cast<double>(gate.bad) / count <= allowed;
     const auto& statistics = measured.statistics;
-    gate.found = "smallest " + short_number(statistics.min) + ", largest " + short_number(statistics.max);
+    gate.found =
+        "smallest " + found_text(limit, statistics.min) + ", largest " + found_text(limit, statistics.max);
     if (gate.bad > 0)
         gate.found += fmt::format(", {} of {} elements outside", gate.bad, measured.values.size());
     return gate;
@@ -92,63 +97,23 @@ std::size_t count_defects(const hex::MeshDefects& defects, std::string_view kind
     return defects.several_components ? 1 : 0;
 }
 
-/// The part of an earlier report that is compared.
-class Baseline {
-  public:
-    Baseline(std::filesystem::path file, double tolerance) : file_(std::move(file)), tolerance_(tolerance) {
-        const std::string text = hex::io::read_text_file(file_);
-        try {
-            report_ = Json::parse(text);
-        } catch (const Json::exception& problem) {
-            fail(std::string("is not JSON: ") + problem.what());
-        }
-        if (!report_.is_object() || !report_.contains("min_scaled_jacobian"))
-            fail("is not a report of hexspline check");
-    }
-
-    /// A number of the report, by its place; none when it is not there.
-    std::optional<double> number(std::initializer_list<const char*> keys) const {
-        const Json* value = &report_;
-        for (const char* key : keys) {
-            if (!value->is_object()) fail("is not a report of hexspline check");
-            const auto found = value->find(key);
-            if (found == value->end()) return std::nullopt;
-            value = &*found;
-        }
-        if (value->is_null()) return std::nullopt;
-        if (!value->is_number()) fail("is not a report of hexspline check");
-        return value->get<double>();
-    }
-
-    void compare(std::vector<Gate>& gates, const std::string& name, std::optional<double> before, double now,
-                 BetterWhen better, const std::vector<CellId>& cells = {}) const {
-        if (!before) return;
-        const double slack = tolerance_ * std::max(1.0, std::abs(*before));
-        const bool worse = better == BetterWhen::larger ? now < *before - slack : now > *before + slack;
-        Gate gate;
-        gate.name = "baseline-" + name;
-        gate.demand = (better == BetterWhen::larger ? "at least " : "at most ") + short_number(*before);
-        gate.found = short_number(now);
-        gate.passed = !worse;
-        gate.bad = worse ? 1 : 0;
-        if (worse) gate.cells = cells;
-        gates.push_back(std::move(gate));
-    }
-
-  private:
-    [[noreturn]] void fail(const std::string& what) const {
-        throw hex::Error(hex::ErrorKind::bad_input, what, file_.string());
-    }
-
-    std::filesystem::path file_;
-    double tolerance_;
-    Json report_;
-};
-
 }  // namespace
 
 std::string short_number(double value) {
     return fmt::format("{:.6g}", value);
+}
+
+std::string exact_number(double value) {
+    std::string text;
+    hex::io::append_number(text, value);
+    return text;
+}
+
+std::string number_beside(double value, double limit) {
+    const std::string text = short_number(value);
+    const auto side = [&](double x) { return x < limit ? -1 : x > limit ? 1 : 0; };
+    const auto told = hex::io::parse_double(text);
+    return told && side(*told) == side(value) ? text : exact_number(value);
 }
 
 std::vector<Gate> evaluate_gates(const Demands& demands, const Findings& findings, std::size_t worst) {
@@ -172,8 +137,8 @@ std::vector<Gate> evaluate_gates(const Demands& demands, const Findings& finding
         const double percent = findings.distance->percent(findings.distance->max());
         Gate gate;
         gate.name = "surface-distance";
-        gate.demand = "at most " + short_number(*demands.max_surface_distance) + " % of the diagonal";
-        gate.found = short_number(percent) + " %";
+        gate.demand = "at most " + exact_number(*demands.max_surface_distance) + " % of the diagonal";
+        gate.found = number_beside(percent, *demands.max_surface_distance) + " %";
         gate.passed = percent <= *demands.max_surface_distance;
         gate.bad = gate.passed ? 0 : 1;
         gates.push_back(std::move(gate));
@@ -181,39 +146,6 @@ std::vector<Gate> evaluate_gates(const Demands& demands, const Findings& finding
     if (findings.bezier) return gates;
     for (const std::string& kind : demands.forbidden)
         gates.push_back(counting_gate(kind, "none", count_defects(findings.defects, kind)));
-    return gates;
-}
-
-std::vector<Gate> compare_with_baseline(const std::filesystem::path& file, double tolerance,
-                                        const Findings& findings, std::size_t worst) {
-    const Baseline baseline(file, tolerance);
-    std::vector<Gate> gates;
-    for (const auto& [metric, measured] : findings.metrics) {
-        const auto& info = hex::info(metric);
-        if (info.better == BetterWhen::neither) continue;
-        const std::string name(info.name);
-        const bool larger = info.better == BetterWhen::larger;
-        auto cells = measured.worst;
-        cells.resize(std::min(worst, cells.size()));
-        baseline.compare(gates, name + (larger ? "-min" : "-max"),
-                         baseline.number({"metrics", name.c_str(), larger ? "min" : "max"}),
-                         larger ? measured.statistics.min : measured.statistics.max, info.better, cells);
-        baseline.compare(gates, name + "-mean", baseline.number({"metrics", name.c_str(), "mean"}),
-                         measured.statistics.mean, info.better);
-    }
-    const auto count = [&](const char* name, std::optional<double> before, std::size_t now) {
-        baseline.compare(gates, name, before, static_cast<double>(now), BetterWhen::smaller);
-    };
-    if (!baseline.number({"metrics", "scaled_jacobian", "min"}))
-        baseline.compare(gates, "scaled_jacobian-min", baseline.number({"min_scaled_jacobian"}),
-                         findings.summary.min, BetterWhen::larger);
-    count("inverted", baseline.number({"inverted"}), findings.inverted.size());
-    count("duplicate-nodes", baseline.number({"nodes", "duplicate"}), findings.defects.duplicates.size());
-    count("unused-nodes", baseline.number({"nodes", "unused"}), findings.defects.unused.size());
-    count("open-boundary", baseline.number({"boundary", "open_edges"}), findings.defects.open_edges.size());
-    if (findings.distance)
-        baseline.compare(gates, "surface-distance", baseline.number({"surface_distance", "max_percent"}),
-                         findings.distance->percent(findings.distance->max()), BetterWhen::smaller);
     return gates;
 }
 

@@ -45,12 +45,11 @@ struct Gate {
 /// All gates, in the order of the demands. `worst` is how many elements a gate lists at most.
 std::vector<Gate> evaluate_gates(const Demands& demands, const Findings& findings, std::size_t worst);
 
-/// Gates against an earlier report: nothing may be worse than there by more than `tolerance` (relative, and
-/// absolute below 1). Throws hex::Error{bad_input} when `baseline` is not a report of check.
-std::vector<Gate> compare_with_baseline(const std::filesystem::path& baseline, double tolerance,
-                                        const Findings& findings, std::size_t worst);
-
 /// A number for people: six digits.
 std::string short_number(double value);
+/// The shortest text that reads back to the same number: a limit as it was written.
+std::string exact_number(double value);
+/// Six digits, or all of them when six would tell another order of `value` and `limit`.
+std::string number_beside(double value, double limit);
 
 }  // namespace cli

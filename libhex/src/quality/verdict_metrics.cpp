@@ -365,8 +365,9 @@ double warpage(const Corners& p) {
             const Point one = cross(b - a, c - a), other = cross(c - a, d - a);
             const double scale = length(one) * length(other);
             if (scale <= verdict_min) return 180.0;
-            const double cosine = std::clamp(dot(one, other) / scale, -1.0, 1.0);
-            largest = std::max(largest, std::acos(cosine) * (180.0 / 3.14159265358979323846));
+            // Exact for flat faces, too, where the arc cosine loses half of the digits.
+            const double angle = std::atan2(length(cross(one, other)), dot(one, other));
+            largest = std::max(largest, angle * (180.0 / 3.14159265358979323846));
         }
     }
     return largest;

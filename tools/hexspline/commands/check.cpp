@@ -4,6 +4,7 @@
 ///   hexspline check part.vtk --profile ls-dyna --surface part.stl --max-surface-distance 0.5 --json -
 ///   --junit check.xml
 
+#include "hexspline/check_baseline.h"
 #include "hexspline/check_report.h"
 #include "hexspline/command.h"
 #include "hexspline/inputs.h"
@@ -65,15 +66,18 @@ Demands demands_of(const CommandLine& line) {
     Demands demands;
     if (line.given("profile")) demands = profile(line.get<std::string>("profile"));
     if (line.given("config")) demands = read_demands(line.get<std::string>("config"));
+    // Several options for one metric hold together; together they replace what there is about it.
+    Demands options;
     if (line.given("min-scaled-jacobian")) {
         const double least = line.get<double>("min-scaled-jacobian");
         line.require_range("min-scaled-jacobian", least, -1.0, 1.0);
-        demands.add({HexMetric::scaled_jacobian, least, {}, {}, {}});
+        options.merge({HexMetric::scaled_jacobian, least, {}, {}, {}});
     }
     for (const std::string& text : line.get_or<Strings>("metric", {}))
-        for (const MetricLimit& limit : parse_metric(text)) demands.add(limit);
+        for (const MetricLimit& limit : parse_metric(text)) options.merge(limit);
     for (const std::string& text : line.get_or<Strings>("percentile", {}))
-        demands.add(parse_percentile(text));
+        options.merge(parse_percentile(text));
+    for (const MetricLimit& limit : options.limits) demands.add(limit);
     if (line.given("bad-share")) {
         demands.bad_share = line.get<double>("bad-share");
         line.require_range("bad-share", demands.bad_share, 0.0, 1.0);
@@ -180,8 +184,13 @@ int run(CommandLine& line) {
     line.require_range("duplicate-tolerance", line.get<double>("duplicate-tolerance"), 0.0, 1.0);
     line.require_range("baseline-tolerance", line.get<double>("baseline-tolerance"), 0.0, 1e30);
     const auto worst = static_cast<std::size_t>(line.get<int>("worst"));
-    const Demands demands = demands_of(line);
+    Demands demands = demands_of(line);
     require_nothing_read_is_written(line, demands);
+    std::optional<Baseline> baseline;
+    if (demands.baseline) {
+        baseline.emplace(*demands.baseline);
+        for (const HexMetric metric : baseline->metrics()) demands.add({metric, {}, {}, {}, {}});
+    }
     hex::HexMesh mesh;
     std::optional<spline::JacobianReport> bezier;
     if (is_bext(line.input())) {
@@ -194,10 +203,12 @@ int run(CommandLine& line) {
     Outcome outcome{line.input().string(), mesh, examine(line, mesh, demands, worst, bezier.has_value()), {}};
     outcome.findings.bezier = std::move(bezier);
     outcome.gates = evaluate_gates(demands, outcome.findings, worst);
-    if (demands.baseline)
-        for (Gate& gate : compare_with_baseline(*demands.baseline, line.get<double>("baseline-tolerance"),
-                                                outcome.findings, worst))
+    if (baseline) {
+        for (Gate& gate : baseline->compare(outcome.findings, line.get<double>("baseline-tolerance"), worst))
             outcome.gates.push_back(std::move(gate));
+        if (const std::string left = baseline->not_compared(outcome.findings); !left.empty())
+            line.warn("of the baseline " + demands.baseline->string() + " is not compared: " + left);
+    }
 
     if (to_stdout == nullptr) std::cout << table_text(outcome);
     line.write_report(report_json(outcome));
