@@ -83,17 +83,66 @@ class Examples(CommandTest):
         self.bash(entry, 1, ['meshes/good.vtk', 'meshes/bad.vtk'])
 
     def test_the_hook_of_git(self):
+        self.repository()
+        self.bash('git add meshes/good.vtk && git commit -q -m good', 0)
+        (self.folder / 'meshes' / 'bad.vtk').write_text(self.bad)
+        self.refused('git add meshes/bad.vtk')
+        self.assertEqual(self.bash('git log --format=%s', 0).stdout, 'good\n')
+
+    def test_the_hook_of_git_checks_what_is_committed(self):
+        self.repository()
+        mesh = self.folder / 'meshes' / 'good.vtk'
+        good = mesh.read_text()
+        self.bash('git add meshes/good.vtk', 0)
+        mesh.write_text(self.bad)
+        self.bash('git commit -q -m good', 0)
+        self.bash('git add meshes/good.vtk', 0)
+        mesh.write_text(good)
+        self.refused('true')
+        # The commit that takes the working folder.
+        self.bash('git commit -q -a --allow-empty -m same', 0)
+        mesh.write_text(self.bad)
+        self.assertNotEqual(self.bash('git commit -q -a -m bad').returncode, 0)
+
+    def test_the_hook_of_git_checks_renamed_and_copied_files_of_any_name(self):
+        self.repository()
+        good = (self.folder / 'meshes' / 'good.vtk').read_text()
+        names = ['two words.vtk', "quo'te \"s\".vtk", 'line\nbreak.vtk', 'Gr\u00f6\u00dfe.vtk', '-dash.vtk', 'deep/er/$(false) *.vtk']
+        (self.folder / 'meshes' / 'deep' / 'er').mkdir(parents=True)
+        for name in names:
+            (self.folder / 'meshes' / name).write_text(good)
+        self.bash('git config diff.renames copies && git add meshes && git commit -q -m good', 0)
+        for name in names:
+            (self.folder / 'meshes' / name).write_text(self.bad)
+            self.refused('git add meshes')
+            (self.folder / 'meshes' / name).write_text(good)
+            self.bash('git add meshes', 0)
+        # One line of many is another one: git takes the file for a renamed one.
+        self.bash('git mv meshes/good.vtk meshes/renamed.vtk', 0)
+        (self.folder / 'meshes' / 'renamed.vtk').write_text(self.bad)
+        self.bash('git add meshes', 0)
+        self.assertIn('R', self.bash('git diff --cached --name-status -M', 0).stdout)
+        self.refused('true')
+        self.bash('git rm -q -f meshes/renamed.vtk && git commit -q -m removed', 0)
+
+    def repository(self):
+        """With the hook, and a folder for temporary files in which nothing is to be left."""
         self.bash('git init -q . && git config user.name a && git config user.email a@example.org', 0)
+        (self.folder / 'temporary').mkdir()
+        self.environment['TMPDIR'] = str(self.folder / 'temporary')
         hook = self.folder / '.git' / 'hooks' / 'pre-commit'
         hook.write_text(block('bash', 'git diff --cached'))
         hook.chmod(0o755)
         # The profile asks more than this mesh has; another one keeps to what the test wants to see.
         hook.write_text(hook.read_text().replace('--profile ls-dyna', '--min-scaled-jacobian 0.1'))
-        self.bash('git add meshes/good.vtk && git commit -q -m good', 0)
-        (self.folder / 'meshes' / 'bad.vtk').write_text(self.bad)
-        self.bash('git add meshes/bad.vtk', 0)
-        self.assertNotEqual(self.bash('git commit -q -m bad').returncode, 0)
-        self.assertEqual(self.bash('git log --format=%s', 0).stdout, 'good\n')
+
+    def refused(self, script):
+        """A commit after `script`, for the elements of a mesh."""
+        self.bash(script, 0)
+        commit = self.bash('git commit -q -m bad')
+        self.assertEqual(commit.returncode, 1, commit.stderr)
+        self.assertIn('scaled_jacobian', commit.stderr)
+        self.assertEqual(list((self.folder / 'temporary').iterdir()), [])
 
 
 if __name__ == '__main__':
