@@ -3,6 +3,7 @@
 
     ci_examples_test.py HEXSPLINE DATA
 """
+import functools
 import json
 import os
 import re
@@ -12,16 +13,10 @@ import textwrap
 import unittest
 import xml.etree.ElementTree as xml
 
+from printed_commands import code_block
 from program import DATA, PROGRAM, ROD, CommandTest
 
-PAGE = (DATA.parent / 'docs/ci.md').read_text()
-
-
-def block(language, beginning):
-    """The code block of the page that holds a text."""
-    found = [text for text in re.findall(rf'^```{language}\n(.*?)^```$', PAGE, re.M | re.S) if beginning in text]
-    assert len(found) == 1, (language, beginning, len(found))
-    return found[0]
+block = functools.partial(code_block, (DATA.parent / 'docs/ci.md').read_text())
 
 
 class Examples(CommandTest):
