@@ -37,7 +37,7 @@ def words_of(line):
 
 def printed_commands(page):
     """The calls of the program in the code of a page, indented or fenced, each as its words."""
-    shell = re.sub(r'^```(?:bash|sh|console|)\n(.*?)^```$', lambda block: re.sub('^', ' ' * 4, block[1], flags=re.M), page,
+    shell = re.sub(r'^```(?:bash|sh|console)\n(.*?)^```$', lambda block: re.sub('^', ' ' * 4, block[1], flags=re.M), page,
                    flags=re.M | re.S)
     return [words_of(line) for line in re.findall(r'^ {4}(?:\$ )?(hexspline [a-z]+(?: .*)?)$', shell, re.M)]
 
