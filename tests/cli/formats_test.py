@@ -178,6 +178,25 @@ class Formats(CommandTest):
                         self.assertIn('ELSET=lower', (self.folder / 'back.inp').read_text())
                         theirs.unlink()
 
+    @unittest.skipIf(shutil.which('gmsh') is None, 'no gmsh')
+    def test_part_ids_of_a_mesh_that_gmsh_cuts_into_partitions(self):
+        self.make_mesh()
+        self.run_program('convert', 'a.vtk', '-o', 'a.msh')
+        for version in ('msh22', 'msh41'):
+            for encoding in ([], ['-bin']):
+                with self.subTest(version=version, encoding=encoding):
+                    cut = self.folder / 'cut.msh'
+                    cut.unlink(missing_ok=True)
+                    # Its exit code is that of an earlier, empty step.
+                    subprocess.run(['gmsh', 'a.msh', '-part', '2', '-save', '-format', version, *encoding, '-o', cut.name], cwd=self.folder,
+                                   stdin=subprocess.DEVNULL, capture_output=True)
+                    self.assertEqual(version == 'msh41', b'$PartitionedEntities' in cut.read_bytes())
+                    told = self.run_program('convert', 'cut.msh', '-o', 'back.vtk').stderr
+                    self.assertNotIn('renumbered', told)
+                    # The order of the points is another.
+                    parts = [self.vtk_text(name).split('CELL_DATA')[1] for name in ('a.vtk', 'back.vtk')]
+                    self.assertEqual(*parts)
+
     def test_mfem_and_open_volume_mesh_say_what_their_formats_demand(self):
         (self.folder / 'part.inp').write_text(ABAQUS)
         self.run_program('convert', 'part.inp', '-o', 'part.mfem')

@@ -613,6 +613,53 @@ TEST(Abaqus, NodeSetsAndSurfacesAreWarnedOfOnce) {
     EXPECT_NE(file.diagnostics[1].message.find("*SURFACE in line 11"), std::string::npos);
 }
 
+/// Three triangles in surfaces 1, 2 and 7 of a Gmsh file in version 4.1.
+std::string gmsh_triangles(const std::string& entities) {
+    return "$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$PhysicalNames\n2\n2 2 \"soft\"\n2 9 "
+           "\"hard\"\n$EndPhysicalNames\n" +
+           entities +
+           "$Nodes\n1 3 1 3\n2 1 0 3\n1\n2\n3\n0 0 0\n1 0 0\n0 1 0\n$EndNodes\n"
+           "$Elements\n3 3 1 3\n2 1 2 1\n1 1 2 3\n2 2 2 1\n2 1 2 3\n2 7 2 1\n3 1 2 3\n$EndElements\n";
+}
+
+TEST(Gmsh, AnEntityInNoGroupIsNoGroup) {
+    const auto file = surface_of(
+        ".msh", gmsh_triangles("$Entities\n0 0 3 0\n1 0 0 0 1 1 0 1 2 0\n2 0 0 0 1 1 0 0 0\n7 0 0 0 1 1 "
+                               "0 1 9 0\n$EndEntities\n"));
+    EXPECT_EQ(file.soup.parts, (std::vector<int>{2, 1, 9}));
+    EXPECT_EQ(file.part_names, (PartNames{{2, "soft"}, {9, "hard"}}));
+    ASSERT_EQ(codes_of(file.diagnostics), (Texts{"parts-renumbered"}));
+    EXPECT_EQ(file.diagnostics[0].ids, (std::vector<std::int64_t>{2}));
+    // Version 2.2 has the group and the entity with each element.
+    const auto old =
+        surface_of(".msh",
+                   "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n$EndNodes\n"
+                   "$Elements\n4\n1 2 2 5 3 1 2 3\n2 2 2 0 5 1 2 3\n3 2 2 0 1 1 2 3\n4 2 2 0 0 1 2 "
+                   "3\n$EndElements\n");
+    EXPECT_EQ(old.soup.parts, (std::vector<int>{5, 2, 1, 0}));
+}
+
+TEST(Gmsh, AMinusBeforeAGroupIsItsSide) {
+    const auto file = surface_of(
+        ".msh", gmsh_triangles("$Entities\n0 0 3 0\n1 0 0 0 1 1 0 1 -2 0\n2 0 0 0 1 1 0 1 2 0\n7 0 0 0 1 1 "
+                               "0 1 9 0\n$EndEntities\n"));
+    EXPECT_EQ(file.soup.parts, (std::vector<int>{2, 2, 9}));
+    EXPECT_TRUE(file.diagnostics.empty());
+}
+
+TEST(Gmsh, ElementsOfPartitionsBelongToTheGroupsOfTheirEntities) {
+    const std::string whole = "$Entities\n0 0 2 0\n1 0 0 0 1 1 0 1 9 0\n4 0 0 0 1 1 0 0 0\n$EndEntities\n";
+    // 1 and 2 are halves of surface 1, 7 is one of surface 4; points and ghosts are passed over.
+    const auto file = surface_of(
+        ".msh",
+        gmsh_triangles(
+            whole + "$PartitionedEntities\n2\n1\n20 1\n1 0 3 0\n1 0 1 1 2 0 0 0 0\n"
+                    "1 2 1 1 1 0 0 0 1 1 0 1 9 0\n2 2 1 1 2 0 0 0 1 1 0 1 9 0\n7 2 4 2 1 2 0 0 0 1 1 0 0 1 "
+                    "-3\n$EndPartitionedEntities\n"));
+    EXPECT_EQ(file.soup.parts, (std::vector<int>{9, 9, 4}));
+    EXPECT_TRUE(file.diagnostics.empty());
+}
+
 TEST(Abaqus, SetsThatOverlapManyTimesTakeLittleTime) {
     constexpr int count = 20000;
     std::string whole = abaqus_triangles(count), every_second = whole, far = whole;

@@ -4,12 +4,16 @@
 #include "io/gmsh_numbers.h"
 #include "io/id_map.h"
 
+#include <hex/base/diagnostics.h>
 #include <hex/base/error.h>
 
 #include <algorithm>
 #include <array>
+#include <climits>
+#include <cstdlib>
 #include <map>
 #include <numeric>
+#include <set>
 
 namespace hex::io {
 namespace {
@@ -40,8 +44,12 @@ struct Element {
     long long tag;
     std::array<long long, 8> nodes;
     std::size_t corners;
-    int part;
+    int group;   ///< the physical group; 0 without
+    int entity;  ///< of the geometry
     std::size_t position;
+    int part = 0;
+
+    int dimension() const { return corners == 8 ? 3 : 2; }
 };
 
 class GmshReader {
@@ -84,7 +92,8 @@ class GmshReader {
 
     void section(const std::string& name) {
         if (name == "$PhysicalNames") return physical_names();
-        if (name == "$Entities" && new_layout_) return entities();
+        if (name == "$Entities" && new_layout_) return entities(false);
+        if (name == "$PartitionedEntities" && new_layout_) return entities(true);
         if (name == "$Nodes") return new_layout_ ? nodes_in_blocks() : nodes();
         if (name == "$Elements") return new_layout_ ? elements_in_blocks() : elements();
         if (!name.starts_with("$")) scanner_.fail("a section should be here, not " + in_quotes(name));
@@ -102,37 +111,62 @@ class GmshReader {
     void physical_names() {
         const std::size_t count = scanner_.count("the number of names", 6);
         for (std::size_t i = 0; i < count; ++i) {
-            const long long dimension = scanner_.integer("a dimension");
+            const int dimension = scanner_.small_integer("a dimension");
             const int tag = scanner_.small_integer("a physical tag");
             std::string_view name = scanner_.rest_of_line();
             if (name.size() < 2 || name.front() != '"' || name.back() != '"')
                 scanner_.fail("a name in quotes should be here, not " + in_quotes(name));
             name = name.substr(1, name.size() - 2);
-            if (name != "PART_" + std::to_string(tag)) names_[{dimension, tag}] = std::string(name);
+            names_[{dimension, tag}] = std::string(name);
         }
         end("$EndPhysicalNames");
     }
 
-    /// Only the physical groups of surfaces and volumes are kept.
-    void entities() {
+    /// Of each entity its physical group, and the entity of the geometry it is a part of. A file that is cut
+    /// into partitions has two such sections; its elements belong to the entities of the second.
+    void entities(bool partitioned) {
         numbers_.next_line();
+        if (partitioned) {
+            groups_.clear();
+            numbers_.size("the number of partitions");
+            const std::size_t ghosts = numbers_.count("the number of ghost entities", 4);
+            for (std::size_t i = 0; i < 2 * ghosts; ++i) numbers_.integer("a ghost entity");
+        }
         std::array<std::size_t, 4> counts{};
         for (auto& count : counts) count = numbers_.count("the number of entities", 4);
-        for (int dimension = 0; dimension < 4; ++dimension) {
-            for (std::size_t i = 0; i < counts[static_cast<std::size_t>(dimension)]; ++i) {
-                const long long tag = numbers_.integer("the tag of an entity");
-                for (int k = 0; k < (dimension == 0 ? 3 : 6); ++k) numbers_.real("a coordinate");
-                const std::size_t groups = numbers_.count("the number of physical groups", 2);
-                for (std::size_t g = 0; g < groups; ++g) {
-                    const int physical = numbers_.small_integer("a physical tag");
-                    if (g == 0) group_of_entity_[{dimension, tag}] = physical;
-                }
-                if (dimension == 0) continue;
-                const std::size_t bounding = numbers_.count("the number of bounding entities", 2);
-                for (std::size_t b = 0; b < bounding; ++b) numbers_.integer("a bounding entity");
-            }
+        for (int dimension = 0; dimension < 4; ++dimension)
+            for (std::size_t i = 0; i < counts[static_cast<std::size_t>(dimension)]; ++i)
+                entity(dimension, partitioned);
+        end(partitioned ? "$EndPartitionedEntities" : "$EndEntities");
+    }
+
+    void entity(int dimension, bool partitioned) {
+        const int tag = numbers_.small_integer("the tag of an entity");
+        int parent = tag;
+        if (partitioned) {
+            const bool same = numbers_.integer("the dimension of the parent") == dimension;
+            const int parent_tag = numbers_.small_integer("the tag of the parent");
+            if (same) parent = parent_tag;
+            const std::size_t partitions = numbers_.count("the number of partitions", 2);
+            for (std::size_t k = 0; k < partitions; ++k) numbers_.integer("a partition");
         }
-        end("$EndEntities");
+        for (int k = 0; k < (dimension == 0 ? 3 : 6); ++k) numbers_.real("a coordinate");
+        const std::size_t groups = numbers_.count("the number of physical groups", 2);
+        int first = 0;
+        for (std::size_t g = 0; g < groups; ++g) {
+            const int physical = numbers_.small_integer("a physical tag");
+            if (g == 0) first = physical;
+        }
+        groups_[{dimension, tag}] = {group_named(first), parent};
+        if (dimension == 0) return;
+        const std::size_t bounding = numbers_.count("the number of bounding entities", 2);
+        for (std::size_t b = 0; b < bounding; ++b) numbers_.integer("a bounding entity");
+    }
+
+    /// A minus only says that the group sees the entity from its other side.
+    int group_named(int physical) const {
+        if (physical == INT_MIN) numbers_.fail("a physical tag is too small");
+        return std::abs(physical);
     }
 
     void start_nodes() {
@@ -206,8 +240,8 @@ class GmshReader {
         return *corners;
     }
 
-    void take_element(long long tag, int type, std::size_t corners, int part) {
-        Element element{tag, {}, corners, part, numbers_.position()};
+    void take_element(long long tag, int type, std::size_t corners, int group, int entity) {
+        Element element{tag, {}, corners, group, entity, numbers_.position()};
         if (corners == 0) {
             for (std::size_t i = 0; i < nodes_of_skipped(type); ++i) numbers_.size("a node tag");
             ++skipped_;
@@ -255,7 +289,7 @@ class GmshReader {
             if (t == 0) physical = value;
             if (t == 1) entity = value;
         }
-        take_element(tag, type, corners, physical != 0 ? physical : entity);
+        take_element(tag, type, corners, group_named(physical), entity);
     }
 
     void elements_in_blocks() {
@@ -268,10 +302,10 @@ class GmshReader {
             const int type = numbers_.small_integer("an element type");
             const std::size_t corners = corners_or_fail(type);
             const std::size_t size = numbers_.count("the number of elements", 4);
-            const auto group = group_of_entity_.find({dimension, entity});
-            const int part = group == group_of_entity_.end() ? entity : group->second;
+            const auto known = groups_.find({dimension, entity});
+            const auto [group, parent] = known == groups_.end() ? std::pair(0, entity) : known->second;
             for (std::size_t i = 0; i < size; ++i)
-                take_element(numbers_.positive("an element tag"), type, corners, part);
+                take_element(numbers_.positive("an element tag"), type, corners, group, parent);
             found += size;
         }
         if (found != count)
@@ -279,8 +313,48 @@ class GmshReader {
         end("$EndElements");
     }
 
+    /// A part is a physical group; what is in none is a part by its entity, under another number where that
+    /// is one of a group.
+    void number_parts() {
+        std::set<std::pair<int, int>> taken, alone;
+        for (const auto& [key, name] : names_) taken.insert(key);
+        for (const Element& element : elements_) {
+            if (element.group != 0)
+                taken.insert({element.dimension(), element.group});
+            else
+                alone.insert({element.dimension(), element.entity});
+        }
+        std::map<std::pair<int, int>, int> part_of_entity;
+        std::vector<std::pair<int, int>> doubtful;
+        for (const auto& entity : alone) {
+            if (taken.contains(entity))
+                doubtful.push_back(entity);
+            else
+                part_of_entity[entity] = entity.second;
+        }
+        taken.merge(alone);
+        std::vector<std::int64_t> renumbered;
+        std::pair<int, int> next{0, 1};
+        for (const auto& entity : doubtful) {
+            if (next.first != entity.first) next = {entity.first, 1};
+            while (taken.contains(next)) ++next.second;
+            part_of_entity[entity] = next.second++;
+            renumbered.push_back(entity.second);
+        }
+        for (Element& element : elements_)
+            element.part =
+                element.group != 0 ? element.group : part_of_entity[{element.dimension(), element.entity}];
+        if (!renumbered.empty())
+            data_.warn("parts-renumbered",
+                       "elements in no physical group get new part ids where their entity has the number of "
+                       "a group: entity " +
+                           list_ids(renumbered),
+                       "entity", renumbered);
+    }
+
     /// In the order of their tags: files of version 4 hold them part by part.
     void finish() {
+        number_parts();
         std::vector<std::uint32_t> order(elements_.size());
         std::iota(order.begin(), order.end(), 0U);
         std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
@@ -295,7 +369,9 @@ class GmshReader {
         if (skipped_ > 0)
             data_.warn("elements-skipped", std::to_string(skipped_) + " points and lines are skipped");
         for (const auto& [key, name] : names_) {
-            if (key.first == (data_.hexahedra.empty() ? 2 : 3)) data_.part_names[key.second] = name;
+            if (key.first == (data_.hexahedra.empty() ? 2 : 3) &&
+                name != "PART_" + std::to_string(key.second))
+                data_.part_names[key.second] = name;
         }
     }
 
@@ -331,8 +407,8 @@ class GmshReader {
     std::size_t skipped_ = 0;
     IdMap node_tags_;
     std::vector<Element> elements_;
-    std::map<std::pair<long long, int>, std::string> names_;
-    std::map<std::pair<int, long long>, int> group_of_entity_;
+    std::map<std::pair<int, int>, std::string> names_;           ///< of groups, by dimension and tag
+    std::map<std::pair<int, int>, std::pair<int, int>> groups_;  ///< of entities: group and parent
 };
 
 }  // namespace
