@@ -87,6 +87,23 @@ class Formats(CommandTest):
             message, = self.run_program('convert', 'part.inp', '-o', name).stderr.splitlines()
             self.assertRegex(message, f'warning: {name}: .* no names of parts; those of 2 are lost')
 
+    def test_names_that_abaqus_would_take_for_one_stay_apart(self):
+        names = ['PART_2', None, 'a,b', 'a=b', 'Steel', 'STEEL', 'STEEL_6', 'last', 'PART_08']
+        (self.folder / 'named.k').write_text('*KEYWORD\n' + ''.join(
+            f'*PART\n{name}\n{number},0,0\n' for number, name in enumerate(names, 1) if name) + '*NODE\n' + ''.join(
+            f'{i},{i % 2},{i // 2},0\n' for i in range(1, 21)) + '*ELEMENT_SHELL\n' + ''.join(
+            f'{i},{i},{i},{i + 1},{i + 3},{i + 2}\n' for i in range(1, 10)) + '*END\n')
+        self.run_program('convert', 'named.k', '-o', 'named.vtk')
+        told = self.run_program('convert', 'named.k', '-o', 'named.inp').stderr
+        self.assertIn("'PART_2' as 'PART_2_1' (and 5 more)", told)
+        sets = [line.split('ELSET=')[1] for line in (self.folder / 'named.inp').read_text().splitlines() if line.startswith('*ELSET')]
+        self.assertEqual(sets, ['PART_2_1', 'PART_2', 'a_b', 'a_b_4', 'Steel', 'STEEL_6', 'STEEL_6_7', 'last', 'PART_08_9'])
+        self.run_program('convert', 'named.inp', '-o', 'back.vtk')
+        rows = [self.vtk_text(name).split('LOOKUP_TABLE')[1].split()[1:] for name in ('named.vtk', 'back.vtk')]
+        self.assertEqual([len(set(row)) for row in rows], [9, 9])
+        told = self.run_program('convert', 'named.k', '-o', 'named.msh').stderr
+        self.assertNotIn('written as', told)
+
     def test_part_0_is_no_physical_group_of_gmsh(self):
         self.make_mesh()
         lines = self.vtk_text('a.vtk').splitlines()

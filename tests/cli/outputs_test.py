@@ -41,6 +41,16 @@ class Outputs(CommandTest):
         # Devices are no files.
         self.run_program('check', 'b.k', '--junit', '/dev/null', '--sarif', '/dev/null')
 
+    def test_through_a_link_the_file_it_names_is_written(self):
+        os.mkdir(self.folder / 'far')
+        os.symlink('far/away.off', self.folder / 'link.off')
+        for _ in ('made', 'replaced'):
+            self.run_program('convert', ROD / 'rod.stl', '-o', 'link.off')
+            self.assertTrue((self.folder / 'link.off').is_symlink())
+            self.assertTrue((self.folder / 'far/away.off').is_file())
+        os.symlink('loop.off', self.folder / 'loop.off')
+        self.assertIn('loop.off', self.run_program('convert', ROD / 'rod.stl', '-o', 'loop.off', code=5).stderr)
+
     def test_an_input_stays_unless_it_is_named_as_the_output(self):
         self.copy(BRACKET / 'bracket.stl', 's.stl')
         self.copy(BRACKET / 'bracket_blocks.k', 'b.k')

@@ -406,7 +406,7 @@ TEST(Ply, WhatTheHeaderDoesNotCountIsWarnedOf) {
 
     const std::string binary("\0\0\0\1\0\0\0\1\0\3\0\1\2", 13);
     EXPECT_TRUE(warnings("binary_little_endian", binary).empty());
-    EXPECT_EQ(warnings("binary_little_endian", binary + '\0').at(0).code, "extra-text");
+    EXPECT_EQ(warnings("binary_little_endian", binary + '\0').at(0).code, "extra-bytes");
 }
 
 template <class Number>
@@ -461,7 +461,12 @@ const std::vector<std::array<Vec3, 3>> square_triangles = {{Vec3(0, 0, 0), Vec3(
 
 TEST(Stl, BinaryIsToldByItsSizeNotByItsFirstWord) {
     expect_square(surface_of(".stl", binary_stl("made by somebody", square_triangles)).soup);
-    expect_square(surface_of(".stl", binary_stl("solid as a rock", square_triangles)).soup);
+    const std::string rock = binary_stl("solid as a rock", square_triangles);
+    expect_square(surface_of(".stl", rock).soup);
+    const auto longer = surface_of(".stl", rock + "\r\n");
+    expect_square(longer.soup);
+    ASSERT_EQ(longer.diagnostics.size(), 1u);
+    EXPECT_EQ(longer.diagnostics[0].code, "extra-bytes");
 }
 
 TEST(Stl, WeldsEqualCoordinatesAndDropsDegenerateTriangles) {
@@ -504,9 +509,12 @@ TEST(Medit, ReferencesArePartIdsUnlessAllAreOneNonPositiveNumber) {
 }
 
 TEST(Vtu, AsciiAndInlineBase64) {
-    const auto vtu = [](const std::string& types) {
+    // A compressor may be named where nothing is compressed.
+    const auto vtu = [](const std::string& types, const char* compressor = "") {
         return "\xEF\xBB\xBF<?xml version=\"1.0\"?><VTKFile type=\"UnstructuredGrid\" "
-               "byte_order=\"LittleEndian\"><UnstructuredGrid>"
+               "byte_order=\"LittleEndian\" compressor=\"" +
+               std::string(compressor) +
+               "\"><UnstructuredGrid>"
                "<Piece NumberOfPoints=\"4\" NumberOfCells=\"2\"><CellData><DataArray type=\"Float32\" "
                "Name=\"part\" format=\"ascii\">3 4</DataArray></CellData>"
                "<Points><DataArray type=\"Float32\" NumberOfComponents=\"3\" format=\"ascii\">0 0 0 1 0 0 1 "
@@ -515,9 +523,10 @@ TEST(Vtu, AsciiAndInlineBase64) {
                "<DataArray type=\"Int64\" Name=\"offsets\">3 6</DataArray>" +
                types + "</Cells></Piece></UnstructuredGrid></VTKFile>";
     };
-    const auto file =
-        surface_of(".vtu", vtu("<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">5 5</DataArray>"));
+    const std::string types = "<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">5 5</DataArray>";
+    const auto file = surface_of(".vtu", vtu(types));
     expect_square(file.soup);
+    expect_square(surface_of(".vtu", vtu(types, "vtkLZ4DataCompressor")).soup);
     EXPECT_EQ(file.soup.parts, (std::vector<int>{3, 4}));
     // Header (4 bytes: 2) and data (5 5), encoded together and apart.
     expect_square(
@@ -658,6 +667,32 @@ TEST(Gmsh, ElementsOfPartitionsBelongToTheGroupsOfTheirEntities) {
                     "-3\n$EndPartitionedEntities\n"));
     EXPECT_EQ(file.soup.parts, (std::vector<int>{9, 9, 4}));
     EXPECT_TRUE(file.diagnostics.empty());
+}
+
+TEST(Abaqus, ReferencePointsOfTheAssemblyHaveNumbersOfTheirOwn) {
+    const std::string mesh = abaqus_triangles(1);
+    const std::string points = "*NODE\n1, 5, 5, 5\n*NSET, NSET=point, INTERNAL\n1\n*END ASSEMBLY\n";
+    const auto of_part = surface_of(".inp", "*PART, NAME=p\n" + mesh +
+                                                "*END PART\n*ASSEMBLY, NAME=a\n*INSTANCE, NAME=p-1, "
+                                                "PART=p\n*END INSTANCE\n" +
+                                                points);
+    const auto of_instance =
+        surface_of(".inp", "*PART, NAME=p\n*END PART\n*ASSEMBLY, NAME=a\n*INSTANCE, NAME=p-1, PART=p\n" +
+                               mesh + "*END INSTANCE\n" + points);
+    for (const auto& file : {of_part, of_instance}) {
+        EXPECT_EQ(file.soup.points, surface_of(".inp", mesh).soup.points);
+        EXPECT_EQ(file.soup.size(), 1u);
+        EXPECT_EQ(codes_of(file.diagnostics), (Texts{"nodes-skipped", "sets-skipped"}));
+    }
+}
+
+TEST(Abaqus, ParametersOfElementSetsMayBeCutShort) {
+    const std::string mesh = abaqus_triangles(4);
+    const auto whole = surface_of(".inp", mesh + "*ELSET, ELSET=a, GENERATE\n1, 3, 1\n");
+    EXPECT_EQ(surface_of(".inp", mesh + "*ELSET, ELSET=a, gen, UNSORTED\n1, 3, 1\n").soup.parts,
+              whole.soup.parts);
+    EXPECT_NE(surface_of(".inp", mesh + "*ELSET, ELSET=a\n1, 3, 1\n").soup.parts, whole.soup.parts);
+    EXPECT_THROW(surface_of(".inp", mesh + "*ELSET, ELSET=a, GENERATED\n1, 3, 1\n"), Error);
 }
 
 TEST(Abaqus, SetsThatOverlapManyTimesTakeLittleTime) {

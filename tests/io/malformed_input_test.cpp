@@ -81,6 +81,8 @@ const std::vector<Malformed> cases = {
      "solid element 5 uses node 3 twice"},
     {"k_quadratic_shell", ".k", "*KEYWORD\n*ELEMENT_SHELL\n1,1,1,2,3,4,5,6,7,8\n*END\n", ":3",
      "nodes on their edges", ErrorKind::unsupported},
+    {"k_other_elements", ".k", "*KEYWORD\n*ELEMENT_BEAM_SECTION\n1,1\n*NODE\n1,0,0,0\n*END\n", "",
+     "holds no polygons: keyword '*ELEMENT_BEAM_SECTION' in line 2"},
     {"k_no_elements", ".k", "*KEYWORD\n*NODE\n1,0,0,0\n*END\n", "", "holds no polygons"},
     // VTK legacy
     {"vtk_no_header", ".vtk", "solid\n", ":1", "not a legacy VTK file"},
@@ -126,7 +128,10 @@ const std::vector<Malformed> cases = {
     {"vtu_kind", ".vtu", "<VTKFile type=\"ImageData\"></VTKFile>", ":1", "'ImageData'",
      ErrorKind::unsupported},
     {"vtu_compressor", ".vtu",
-     "<VTKFile type=\"UnstructuredGrid\" compressor=\"vtkLZ4DataCompressor\"><UnstructuredGrid/></VTKFile>",
+     "<VTKFile type=\"UnstructuredGrid\" compressor=\"vtkLZ4DataCompressor\"><UnstructuredGrid><Piece "
+     "NumberOfPoints=\"1\" NumberOfCells=\"0\"><Points>"
+     "<DataArray type=\"Float32\" NumberOfComponents=\"3\" "
+     "format=\"binary\">AQAAAA==</DataArray></Points></Piece></UnstructuredGrid></VTKFile>",
      ":1", "vtkLZ4DataCompressor", ErrorKind::unsupported},
     {"vtu_few_points", ".vtu", vtu("0 0 0 1 0 0", "0 1 2"), ":5", "more than the rest"},
     {"vtu_many_points", ".vtu", vtu("0 0 0 1 0 0 0 1 0 5", "0 1 2"), ":5", "more values than"},

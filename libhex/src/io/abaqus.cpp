@@ -134,6 +134,8 @@ class AbaqusReader {
         if (std::find(all.begin(), all.end(), word.name) != all.end())
             fail("keyword *" + word.name + " is not supported", ErrorKind::unsupported);
         instance_ = word.name == "INSTANCE";
+        if (instance_ || word.name == "END INSTANCE") in_instance_ = instance_;
+        if (word.name == "ASSEMBLY" || word.name == "END ASSEMBLY") in_assembly_ = word.name == "ASSEMBLY";
         block_ = Block::skipped;
         if (word.name == "NODE") {
             if (word.parameters.contains("SYSTEM") && upper_case(value("SYSTEM")) != "R")
@@ -141,7 +143,9 @@ class AbaqusReader {
                      ErrorKind::unsupported);
             if (word.parameters.contains("INPUT"))
                 fail("*NODE, INPUT= is not supported", ErrorKind::unsupported);
-            block_ = Block::node;
+            // Reference points: their numbers are the assembly's own.
+            if (of_assembly()) skipped_keywords_[word.name].push_back(position_);
+            block_ = of_assembly() ? Block::skipped : Block::node;
         } else if (word.name == "ELEMENT") {
             if (word.parameters.contains("INPUT"))
                 fail("*ELEMENT, INPUT= is not supported", ErrorKind::unsupported);
@@ -153,6 +157,8 @@ class AbaqusReader {
                         " are not supported: only three- and four-node shells and eight-node solids are read",
                     ErrorKind::unsupported);
             corners_ = *corners;
+            if (of_assembly() && corners_ > 0)
+                fail("elements of the assembly are not supported", ErrorKind::unsupported);
             set_ = value("ELSET").empty() ? -1 : sets_.index_of(value("ELSET"));
             block_ = corners_ > 0 ? Block::element : Block::skipped_element;
             if (corners_ == 0) ++skipped_blocks_;
@@ -161,7 +167,7 @@ class AbaqusReader {
             if (value("ELSET").empty()) fail("*ELSET needs ELSET=name");
             block_ = Block::element_set;
             set_ = sets_.index_of(value("ELSET"));
-            generate_ = word.parameters.contains("GENERATE");
+            generate_ = is_generated(word);
         } else if (word.name == "NSET" || word.name == "SURFACE") {
             skipped_keywords_[word.name].push_back(position_);
         } else if (word.name == "PART") {
@@ -171,6 +177,23 @@ class AbaqusReader {
             fail("a second *INSTANCE: assemblies of several instances are not supported",
                  ErrorKind::unsupported);
         }
+    }
+
+    /// Whether what is read now is the assembly's own, not of a part or an instance of one.
+    bool of_assembly() const { return in_assembly_ && !in_instance_; }
+
+    /// Parameters of *ELSET may be cut short. An unknown one might give the lines below another meaning.
+    bool is_generated(const Keyword& set) const {
+        static constexpr std::array<std::string_view, 5> known = {"ELSET", "GENERATE", "INSTANCE", "INTERNAL",
+                                                                  "UNSORTED"};
+        bool generated = false;
+        for (const auto& [name, value] : set.parameters) {
+            const auto is_meant = [&](std::string_view whole) { return whole.starts_with(name); };
+            if (name.empty() || std::none_of(known.begin(), known.end(), is_meant))
+                fail("*ELSET has no parameter " + in_quotes(name), ErrorKind::unsupported);
+            generated |= known[1].starts_with(name);
+        }
+        return generated;
     }
 
     void data(std::string_view line) {
@@ -287,11 +310,11 @@ class AbaqusReader {
         if (nested_sets_) data_.warn("sets-skipped", "sets inside of element sets are skipped");
         for (const auto& [name, positions] : skipped_keywords_) {
             const std::vector<std::int64_t> lines = lines_of(positions);
-            data_.warn("sets-skipped",
-                       std::string(name == "NSET" ? "node sets (*NSET in line "
-                                                  : "surfaces made of element faces (*SURFACE in line ") +
-                           list_ids(lines) + ") are skipped",
-                       "line", lines);
+            const std::string what = name == "NSET"   ? "node sets"
+                                     : name == "NODE" ? "reference points of the assembly"
+                                                      : "surfaces made of element faces";
+            data_.warn(name == "NODE" ? "nodes-skipped" : "sets-skipped",
+                       what + " (*" + name + " in line " + list_ids(lines) + ") are skipped", "line", lines);
         }
     }
 
@@ -366,6 +389,8 @@ class AbaqusReader {
     std::size_t position_ = 0;
     bool seen_keyword_ = false;
     bool instance_ = false;
+    bool in_instance_ = false;
+    bool in_assembly_ = false;
     bool generate_ = false;
     bool nested_sets_ = false;
     bool continued_ = false;  ///< a skipped element goes on in the next line
@@ -404,19 +429,15 @@ void append_element(std::string& text, std::size_t id, const Corners& corners) {
     text += '\n';
 }
 
-/// A name that Abaqus takes: no commas, quotes or line ends.
-std::string plain(std::string name) {
-    for (char& c : name)
-        if (c == ',' || c == '"' || c == '=' || c == '*' || static_cast<unsigned char>(c) < 32) c = '_';
-    return name;
-}
-
 /// The elements of each part, sixteen ids a line.
 void append_sets(OutputFile& out, std::span<const int> parts, const PartNames& names) {
     std::map<int, std::vector<std::size_t>> members;
     for (std::size_t e = 0; e < parts.size(); ++e) members[parts[e]].push_back(e + 1);
+    std::vector<int> distinct;
+    for (const auto& [part, ids] : members) distinct.push_back(part);
+    const PartNames set_names = abaqus_names(distinct, names);
     for (const auto& [part, ids] : members) {
-        out.write("*ELSET, ELSET=" + plain(name_of_part(part, names)) + "\n");
+        out.write("*ELSET, ELSET=" + set_names.at(part) + "\n");
         for (std::size_t i = 0; i < ids.size(); ++i) {
             append_number(out.buffer(), ids[i]);
             out.buffer() += i % 16 == 15 || i + 1 == ids.size() ? "\n" : ", ";
@@ -426,6 +447,10 @@ void append_sets(OutputFile& out, std::span<const int> parts, const PartNames& n
 }
 
 }  // namespace
+
+PartNames abaqus_names(std::span<const int> parts, const PartNames& names) {
+    return distinct_names_without(",\"=*", parts, names);
+}
 
 MeshData read_abaqus(const InputFile& file) {
     return AbaqusReader(file).read();

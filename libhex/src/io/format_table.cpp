@@ -53,15 +53,15 @@ const std::vector<Format>& table() {
              read_mfem,
              without_names<write_mfem_surface>,
              write_mfem_hexahedra},
-            {{"Abaqus", {".inp"}, true, true, true, true, true, true, 4, false, "text, exact"},
+            {{"Abaqus", {".inp"}, true, true, true, true, true, true, 4, false, "text, exact", abaqus_names},
              read_abaqus,
              write_abaqus_surface,
              write_abaqus_hexahedra},
-            {{"Gmsh", {".msh"}, true, true, true, true, true, true, 4, false, "text, exact"},
+            {{"Gmsh", {".msh"}, true, true, true, true, true, true, 4, false, "text, exact", gmsh_names},
              read_gmsh,
              write_gmsh_surface,
              write_gmsh_hexahedra},
-            {{"Gmsh 2.2", {".msh2"}, true, true, true, true, true, true, 4, false, "text, exact"},
+            {{"Gmsh 2.2", {".msh2"}, true, true, true, true, true, true, 4, false, "text, exact", gmsh_names},
              read_gmsh,
              write_gmsh_2_surface,
              write_gmsh_2_hexahedra},
@@ -184,6 +184,16 @@ void warn_of_repeated_corners(MeshData& data) {
                   "polygon", repeating);
 }
 
+/// Why there may be nothing in a file that has something.
+std::string what_was_skipped(const MeshData& data) {
+    constexpr std::size_t most = 3;
+    std::string text;
+    for (std::size_t i = 0; i < std::min(most, data.diagnostics.size()); ++i)
+        text.append(i == 0 ? ": " : "; ").append(data.diagnostics[i].message);
+    if (data.diagnostics.size() > most) text += "; ...";
+    return text;
+}
+
 SurfaceFile to_surface(MeshData&& data, const std::filesystem::path& path) {
     if (data.surface.size() == 0) {
         if (!data.hexahedra.empty())
@@ -191,7 +201,7 @@ SurfaceFile to_surface(MeshData&& data, const std::filesystem::path& path) {
                 ErrorKind::bad_input,
                 "holds " + plural(data.hexahedra.size(), "hexahedron", "hexahedra") + ", not a surface",
                 path.string(), "a surface of triangles or polygons is needed here");
-        throw Error(ErrorKind::bad_input, "holds no polygons", path.string());
+        throw Error(ErrorKind::bad_input, "holds no polygons" + what_was_skipped(data), path.string());
     }
     if (!data.hexahedra.empty())
         data.warn("hexahedra-skipped", plural(data.hexahedra.size(), "hexahedron", "hexahedra") + " skipped");
@@ -205,7 +215,7 @@ HexFile to_hexahedra(MeshData&& data, const std::filesystem::path& path) {
             throw Error(ErrorKind::bad_input,
                         "holds " + plural(data.surface.size(), "polygon", "polygons") + " and no hexahedra",
                         path.string(), "a mesh or block structure of hexahedra is needed here");
-        throw Error(ErrorKind::bad_input, "holds no hexahedra", path.string());
+        throw Error(ErrorKind::bad_input, "holds no hexahedra" + what_was_skipped(data), path.string());
     }
     // Boundary quadrilaterals beside the hexahedra are the rule in Medit files: worth a note, not a warning.
     if (data.surface.size() > 0)

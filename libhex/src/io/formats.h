@@ -42,10 +42,12 @@ MeshData read_ply(const InputFile& file);
 void write_ply(OutputFile& out, const PolygonSoup& soup);
 
 MeshData read_abaqus(const InputFile& file);
+PartNames abaqus_names(std::span<const int> parts, const PartNames& names);
 void write_abaqus_surface(OutputFile& out, const PolygonSoup& soup, const PartNames& names);
 void write_abaqus_hexahedra(OutputFile& out, const HexMesh& mesh, const Fields& fields);
 
 MeshData read_gmsh(const InputFile& file);
+PartNames gmsh_names(std::span<const int> parts, const PartNames& names);
 void write_gmsh_surface(OutputFile& out, const PolygonSoup& soup, const PartNames& names);
 void write_gmsh_hexahedra(OutputFile& out, const HexMesh& mesh, const Fields& fields);
 void write_gmsh_2_surface(OutputFile& out, const PolygonSoup& soup, const PartNames& names);

@@ -38,12 +38,6 @@ void append_row(std::string& text, const Values&... values) {
     text += '\n';
 }
 
-std::string quoted(std::string name) {
-    for (char& c : name)
-        if (c == '"' || static_cast<unsigned char>(c) < 32) c = '_';
-    return '"' + name + '"';
-}
-
 /// 0 as the tag of a physical group is none.
 std::vector<int> groups_of(std::span<const int> parts) {
     std::vector<int> groups(parts.begin(), parts.end());
@@ -54,13 +48,14 @@ std::vector<int> groups_of(std::span<const int> parts) {
 void append_header(std::string& text, const char* version, int dimension, std::span<const int> parts,
                    const PartNames& names) {
     const std::vector<int> groups = groups_of(parts);
+    const PartNames written = gmsh_names(groups, names);
     text.append("$MeshFormat\n").append(version).append(" 0 8\n$EndMeshFormat\n$PhysicalNames\n");
     append_row(text, groups.size());
     for (const int part : groups) {
         append_number(text, dimension);
         text += ' ';
         append_number(text, part);
-        text += ' ' + quoted(name_of_part(part, names)) + '\n';
+        text.append(" \"").append(written.at(part)) += "\"\n";
     }
     text += "$EndPhysicalNames\n";
 }
@@ -169,6 +164,10 @@ Elements elements_of(const HexMesh& mesh) {
 }
 
 }  // namespace
+
+PartNames gmsh_names(std::span<const int> parts, const PartNames& names) {
+    return names_without("\"", parts, names);
+}
 
 void write_gmsh_surface(OutputFile& out, const PolygonSoup& soup, const PartNames& names) {
     write_4(out, soup.points, elements_of(soup), names);

@@ -34,8 +34,9 @@ void abandon_output_files() noexcept {
 }
 
 OutputFile::OutputFile(std::filesystem::path path) : path_(std::move(path)) {
-    std::error_code ignored;
-    const auto status = std::filesystem::status(path_, ignored);
+    std::error_code problem, ignored;
+    const auto status = std::filesystem::status(path_, problem);
+    if (problem == std::errc::too_many_symbolic_link_levels) fail("cannot be written", problem.value());
     if (std::filesystem::is_directory(status)) fail("is a directory, not a file to write", 0);
     if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status)) {
         descriptor_ = ::open(path_.c_str(), O_WRONLY | O_CLOEXEC);
@@ -44,10 +45,9 @@ OutputFile::OutputFile(std::filesystem::path path) : path_(std::move(path)) {
     }
     if (std::filesystem::exists(status) && ::access(path_.c_str(), W_OK) != 0)
         fail("cannot be overwritten", errno);
-    // Through a symbolic link the file it points to is replaced, not the link.
-    if (std::filesystem::is_symlink(std::filesystem::symlink_status(path_, ignored)) &&
-        std::filesystem::exists(status))
-        path_ = std::filesystem::canonical(path_);
+    // Through a symbolic link the file it points to is made or replaced, not the link.
+    while (std::filesystem::is_symlink(std::filesystem::symlink_status(path_, ignored)))
+        path_ = path_.parent_path() / std::filesystem::read_symlink(path_);
     // A name may have 255 bytes; of a long one only the start goes into the name beside it.
     const std::string stem = path_.filename().string().substr(0, 200);
     std::string name = (path_.parent_path() / (stem + ".part-XXXXXX")).string();

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <climits>
+#include <optional>
 #include <set>
 
 namespace hex::io {
@@ -15,11 +16,12 @@ namespace {
 
 constexpr std::string_view prefix = "PART_";
 
-/// 7 of "PART_7" (any case); 0 for other names.
-int number_in(const std::string& name) {
-    if (!upper_case(name).starts_with(prefix)) return 0;
+/// 7 of "PART_7" (any case).
+std::optional<int> number_of(const std::string& name) {
+    if (!upper_case(name).starts_with(prefix)) return std::nullopt;
     const auto value = parse_integer(std::string_view(name).substr(prefix.size()));
-    return value && *value >= INT_MIN && *value <= INT_MAX ? static_cast<int>(*value) : 0;
+    if (!value || *value < INT_MIN || *value > INT_MAX) return std::nullopt;
+    return static_cast<int>(*value);
 }
 
 }  // namespace
@@ -29,9 +31,10 @@ std::vector<int> number_parts(const std::vector<std::string>& names, PartNames& 
     std::vector<char> numbered(names.size(), 0);
     std::set<int> taken;
     for (std::size_t i = 0; i < names.size(); ++i) {
-        numbers[i] = number_in(names[i]);
-        numbered[i] =
-            (numbers[i] != 0 || upper_case(names[i]) == "PART_0") && taken.insert(numbers[i]).second;
+        const std::optional<int> number = number_of(names[i]);
+        if (!number || !taken.insert(*number).second) continue;
+        numbers[i] = *number;
+        numbered[i] = true;
     }
     int next = 1;
     for (std::size_t i = 0; i < names.size(); ++i) {
@@ -47,6 +50,33 @@ std::vector<int> number_parts(const std::vector<std::string>& names, PartNames& 
 std::string name_of_part(int part, const PartNames& names) {
     const auto found = names.find(part);
     return found != names.end() ? found->second : std::string(prefix) + std::to_string(part);
+}
+
+PartNames names_without(std::string_view forbidden, std::span<const int> parts, const PartNames& names) {
+    PartNames written;
+    for (const int part : parts) {
+        std::string name = name_of_part(part, names);
+        for (char& c : name)
+            if (static_cast<unsigned char>(c) < 32 || forbidden.find(c) != std::string_view::npos) c = '_';
+        written.emplace(part, std::move(name));
+    }
+    return written;
+}
+
+PartNames distinct_names_without(std::string_view forbidden, std::span<const int> parts,
+                                 const PartNames& names) {
+    PartNames written = names_without(forbidden, parts, names);
+    std::set<std::string> taken;
+    for (const int part : parts) taken.insert(upper_case(name_of_part(part, {})));
+    for (auto& [part, name] : written) {
+        const std::string key = upper_case(name);
+        if (key == name_of_part(part, {}) || (!number_of(key) && taken.insert(key).second)) continue;
+        std::string other = name;
+        do other.append("_").append(std::to_string(part));
+        while (!taken.insert(upper_case(other)).second);
+        name = std::move(other);
+    }
+    return written;
 }
 
 void require_part_ids(std::span<const int> parts, int least, const char* elements, const char* format) {

@@ -6,6 +6,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace hex::io {
@@ -16,6 +17,15 @@ std::vector<int> number_parts(const std::vector<std::string>& names, PartNames& 
 
 /// The name of a part, or "PART_7".
 std::string name_of_part(int part, const PartNames& names);
+
+/// The names of the parts as a format writes them that knows no control characters and none of `forbidden`,
+/// which become '_'. `parts` are distinct.
+PartNames names_without(std::string_view forbidden, std::span<const int> parts, const PartNames& names);
+
+/// The same where parts are known by their names: no two differ only in case, and "PART_7" is part 7. Those
+/// that need it get their part id appended.
+PartNames distinct_names_without(std::string_view forbidden, std::span<const int> parts,
+                                 const PartNames& names);
 
 /// Throws Error{unsupported} that names the elements ("polygons", "hexahedra") when part ids are smaller than
 /// `least`, for a format that has no such ids.

@@ -278,7 +278,7 @@ class PlyReader {
     void warn_of_rest() {
         if (scanner_.at_end()) return;
         if (binary_)
-            data_.warn("extra-text", "bytes after the last element are skipped");
+            data_.warn("extra-bytes", "bytes after the last element are skipped");
         else
             data_.warn("extra-text", "text after the last element is skipped", "line", {scanner_.line()});
     }

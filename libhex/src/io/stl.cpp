@@ -140,7 +140,9 @@ MeshData read_stl(const InputFile& file) {
         // The size decides: many binary files start with "solid" too.
         const std::size_t expected = binary_header + count * binary_triangle;
         if (bytes.size() == expected) return read_binary(file, count);
-        if (!has_solid) {
+        // No text has zero bytes.
+        const bool is_longer = bytes.size() > expected && bytes.substr(0, expected).find('\0') != bytes.npos;
+        if (!has_solid || is_longer) {
             if (bytes.size() < expected)
                 throw Error(ErrorKind::bad_input,
                             "the header tells of " + std::to_string(count) + " triangles, " +

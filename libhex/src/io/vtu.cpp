@@ -73,12 +73,8 @@ class VtuReader {
         const std::string_view order = root.attribute("byte_order").as_string("LittleEndian");
         encoding_.order = order == "BigEndian" ? std::endian::big : std::endian::little;
         encoding_.wide_headers = std::string_view(root.attribute("header_type").value()) == "UInt64";
-        const std::string_view compressor = root.attribute("compressor").value();
-        encoding_.compressed = !compressor.empty();
-        if (encoding_.compressed && compressor != "vtkZLibDataCompressor")
-            throw Error(ErrorKind::unsupported,
-                        "compression by " + in_quotes(compressor) + " is not supported", place(root),
-                        "write the file with zlib or without compression");
+        compressor_ = root.attribute("compressor").value();
+        encoding_.compressed = !compressor_.empty();
         appended_base64_ =
             std::string_view(root.child("AppendedData").attribute("encoding").as_string("base64")) != "raw";
     }
@@ -113,7 +109,7 @@ class VtuReader {
         const std::uint64_t expected = std::uint64_t{count} * size_of(*type);
         if (format == "binary") {
             VtuBytes bytes(trimmed(node.text().get()), true, place(node));
-            return to_numbers<Number>(take_payload(bytes, encoding_, expected), *type, encoding_.order);
+            return to_numbers<Number>(payload(bytes, expected), *type, encoding_.order);
         }
         if (format != "appended") fail("unknown format " + in_quotes(format), node);
         const auto offset = parse_integer(node.attribute("offset").value());
@@ -121,7 +117,15 @@ class VtuReader {
             fail("the offset " + in_quotes(node.attribute("offset").value()) + " is not in the appended data",
                  node);
         VtuBytes bytes(appended_.substr(static_cast<std::size_t>(*offset)), appended_base64_, place(node));
-        return to_numbers<Number>(take_payload(bytes, encoding_, expected), *type, encoding_.order);
+        return to_numbers<Number>(payload(bytes, expected), *type, encoding_.order);
+    }
+
+    std::string payload(VtuBytes& bytes, std::uint64_t expected) const {
+        if (encoding_.compressed && compressor_ != "vtkZLibDataCompressor")
+            throw Error(ErrorKind::unsupported,
+                        "compression by " + in_quotes(compressor_) + " is not supported",
+                        place(document_.child("VTKFile")), "write the file with zlib or without compression");
+        return take_payload(bytes, encoding_, expected);
     }
 
     template <class Number>
@@ -222,6 +226,7 @@ class VtuReader {
     bool appended_base64_ = false;
     pugi::xml_document document_;
     VtuEncoding encoding_;
+    std::string compressor_;
     MeshData data_;
     VtkCells cells_;
     std::vector<int> parts_;

@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <climits>
+#include <set>
 
 namespace cli {
 namespace {
@@ -54,6 +55,24 @@ hex::io::MeshFile read_input(const CommandLine& line) {
     return hex::io::read_mesh_file(line.input());
 }
 
+/// Names that the new format cannot hold are others there.
+void warn_of_altered_names(const CommandLine& line, const hex::io::FormatInfo& format,
+                           std::span<const int> parts, const hex::io::PartNames& names) {
+    const std::set<int> distinct(parts.begin(), parts.end());
+    const auto written = format.names_written(std::vector<int>(distinct.begin(), distinct.end()), names);
+    std::string first;
+    std::size_t count = 0;
+    for (const auto& [part, name] : names) {
+        const auto found = written.find(part);
+        if (found == written.end() || found->second == name) continue;
+        if (++count == 1) first = "'" + name + "' as '" + found->second + "'";
+    }
+    if (count > 0)
+        line.warn(line.output().string() + ": names of parts are written as " + std::string(format.name) +
+                  " can hold them: " + first +
+                  (count > 1 ? " (and " + std::to_string(count - 1) + " more)" : std::string()));
+}
+
 /// Says what the new format drops.
 void warn_of_loss(const CommandLine& line, std::span<const int> parts, const hex::io::PartNames& names) {
     const auto* format = hex::io::find_format(line.output());
@@ -61,6 +80,8 @@ void warn_of_loss(const CommandLine& line, std::span<const int> parts, const hex
         line.warn(line.output().string() + ": " + std::string(format->name) + " carries no names of parts; " +
                   (names.size() == 1 ? "that of one is lost"
                                      : "those of " + std::to_string(names.size()) + " are lost"));
+    if (format != nullptr && format->names_written != nullptr)
+        warn_of_altered_names(line, *format, parts, names);
     const bool has_parts = std::any_of(parts.begin(), parts.end(), [](int part) { return part != 1; });
     if (format != nullptr && !format->part_ids && has_parts)
         line.warn(line.output().string() + ": " + std::string(format->name) +

@@ -33,6 +33,8 @@ struct FormatInfo {
     bool fields = false;
     /// How numbers are written: "text, exact" or "binary, exact".
     std::string_view written_as;
+    /// The names that `parts` (distinct) have in such a file, where some are written as others.
+    PartNames (*names_written)(std::span<const int> parts, const PartNames& names) = nullptr;
 };
 
 /// All formats that are built in, in the order of docs/formats.md.
