@@ -187,7 +187,8 @@ class AbaqusReader {
         static constexpr std::array<std::string_view, 5> known = {"ELSET", "GENERATE", "INSTANCE", "INTERNAL",
                                                                   "UNSORTED"};
         bool generated = false;
-        for (const auto& [name, value] : set.parameters) {
+        for (const auto& parameter : set.parameters) {
+            const std::string& name = parameter.first;
             const auto is_meant = [&](std::string_view whole) { return whole.starts_with(name); };
             if (name.empty() || std::none_of(known.begin(), known.end(), is_meant))
                 fail("*ELSET has no parameter " + in_quotes(name), ErrorKind::unsupported);
