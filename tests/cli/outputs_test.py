@@ -124,6 +124,8 @@ class Outputs(CommandTest):
                     self.assertIn(bad, self.run_program(*command, option, bad, code=5).stderr)
         self.run_program('run', blocks.with_name('rod.stl'), '-o', '/proc/out', code=5)
         self.assertIn('--output', self.run_program('convert', rod, '-o', '', code=2).stderr)
+        for name in ('surface', 'baseline', 'config'):
+            self.assertIn(f'--{name} is empty', self.run_program('check', blocks, f'--{name}', '', code=2).stderr)
 
     def test_what_is_too_large_is_refused_before_it_is_begun(self):
         rod = ROD / 'rod.stl'

@@ -167,6 +167,7 @@ bool CommandLine::parse(const std::vector<std::string>& arguments) {
     } catch (const po::error& problem) {
         usage_error(problem.what(), "see hexspline " + command_.name + " --help");
     }
+    require_values();
     require_different_files();
 
     ConsoleOptions console;
@@ -202,10 +203,14 @@ std::vector<CommandLine::State::File> CommandLine::State::files() const {
     return files;
 }
 
+void CommandLine::require_values() const {
+    for (const auto& [name, value] : state_->variables) {
+        const auto* text = boost::any_cast<std::string>(&value.value());
+        if (text != nullptr && text->empty() && !value.defaulted()) usage_error("--" + name + " is empty");
+    }
+}
+
 void CommandLine::require_different_files() const {
-    for (const std::string& name : state_->output_files)
-        if (given(name) && get<std::string>(name).empty())
-            usage_error("--" + name + " has no name of a file");
     const std::vector<State::File> files = state_->files();
     for (const auto& file : files) {
         if (!file.written) continue;

@@ -134,6 +134,7 @@ class CommandLine {
 
   private:
     const boost::program_options::variable_value& variable(const std::string& name) const;
+    void require_values() const;
     void require_different_files() const;
     std::vector<std::string> normalise(const std::vector<std::string>& arguments) const;
 
