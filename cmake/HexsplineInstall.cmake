@@ -10,4 +10,6 @@ install(FILES "${PROJECT_BINARY_DIR}/hexspline-config.cmake" "${PROJECT_BINARY_D
               "${PROJECT_SOURCE_DIR}/cmake/FindOpenMeshCore.cmake"
         DESTINATION "${package_dir}")
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/README.md" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+# What Debian looks for in every package.
+install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}" RENAME copyright)
 include(HexsplinePackage)

@@ -7,9 +7,10 @@ large is refused before it is begun.
 import json
 import os
 import shutil
+import subprocess
 import unittest
 
-from program import DATA, ROD, CommandTest
+from program import DATA, PROGRAM, ROD, CommandTest
 
 BRACKET = DATA / 'bracket'
 
@@ -50,6 +51,29 @@ class Outputs(CommandTest):
             self.assertTrue((self.folder / 'far/away.off').is_file())
         os.symlink('loop.off', self.folder / 'loop.off')
         self.assertIn('loop.off', self.run_program('convert', ROD / 'rod.stl', '-o', 'loop.off', code=5).stderr)
+
+    def test_a_descriptor_is_written_to_and_not_replaced(self):
+        log = self.folder / 'log.txt'
+        for name in ('/dev/stdout', '/dev/fd/1', '/proc/self/fd/1'):
+            with self.subTest(name=name):
+                log.write_text('before\n')
+                with open(log, 'a') as out:
+                    subprocess.run([PROGRAM, 'check', BRACKET / 'bracket_blocks.k', '--markdown', name, '-q'], stdout=out, check=True)
+                    out.write('after\n')
+                lines = log.read_text().splitlines()
+                self.assertEqual((lines[0], lines[-1]), ('before', 'after'))
+                self.assertTrue(any(line.startswith('|') for line in lines))
+
+    def test_results_of_an_earlier_run_do_not_outlive_what_they_were_made_of(self):
+        blocks = ROD / 'rod_blocks.k'
+        arguments = ('run', ROD / 'rod.stl', '--segmentation', ROD / 'rod_patches.k', '--blocks', blocks, '-o', 'out', '--improve', 'laplace')
+        self.run_program(*arguments, '-s', 1)
+        files = {path.name for path in (self.folder / 'out').iterdir()}
+        self.assertLessEqual({'3-map.vtk', '4-improve.vtk', '5-spline.bext', '5-spline.vtu', 'report.json'}, files)
+        self.run_program(*arguments, '-s', 0, '--to', 'map')
+        files -= {'4-improve.vtk', '5-spline.bext', '5-spline.vtu'}
+        self.assertEqual({path.name for path in (self.folder / 'out').iterdir()}, files)
+        self.run_program('run', ROD / 'rod.stl', '-o', 'out', '--from', 'spline', code=3)
 
     def test_an_input_stays_unless_it_is_named_as_the_output(self):
         self.copy(BRACKET / 'bracket.stl', 's.stl')

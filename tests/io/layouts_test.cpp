@@ -648,6 +648,20 @@ TEST(Gmsh, AnEntityInNoGroupIsNoGroup) {
     EXPECT_EQ(old.soup.parts, (std::vector<int>{5, 2, 1, 0}));
 }
 
+TEST(Gmsh, AnElementInTwoGroupsBelongsToTheFirst) {
+    const auto old =
+        surface_of(".msh",
+                   "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n3\n1 0 0 0\n2 1 0 0\n3 0 1 0\n$EndNodes\n"
+                   "$Elements\n3\n1 2 2 5 3 1 2 3\n2 2 2 6 4 1 2 3\n3 2 2 6 3 1 2 3\n$EndElements\n");
+    EXPECT_EQ(old.soup.parts, (std::vector<int>{5, 6}));
+    EXPECT_EQ(codes_of(old.diagnostics), (Texts{"groups-overlap"}));
+    const auto file = surface_of(
+        ".msh", gmsh_triangles("$Entities\n0 0 3 0\n1 0 0 0 1 1 0 2 2 9 0\n2 0 0 0 1 1 0 1 2 0\n7 0 0 0 1 1 "
+                               "0 1 9 0\n$EndEntities\n"));
+    EXPECT_EQ(file.soup.parts, (std::vector<int>{2, 2, 9}));
+    EXPECT_EQ(codes_of(file.diagnostics), (Texts{"groups-overlap"}));
+}
+
 TEST(Gmsh, AMinusBeforeAGroupIsItsSide) {
     const auto file = surface_of(
         ".msh", gmsh_triangles("$Entities\n0 0 3 0\n1 0 0 0 1 1 0 1 -2 0\n2 0 0 0 1 1 0 1 2 0\n7 0 0 0 1 1 "
@@ -684,6 +698,15 @@ TEST(Abaqus, ReferencePointsOfTheAssemblyHaveNumbersOfTheirOwn) {
         EXPECT_EQ(file.soup.size(), 1u);
         EXPECT_EQ(codes_of(file.diagnostics), (Texts{"nodes-skipped", "sets-skipped"}));
     }
+}
+
+TEST(Abaqus, SetsOfTheAssemblyAreNotThoseOfThePart) {
+    const auto file = surface_of(
+        ".inp", "*PART, NAME=p\n" + abaqus_triangles(3) +
+                    "*ELSET, ELSET=Set-1\n1\n*END PART\n*ASSEMBLY, NAME=a\n*INSTANCE, NAME=i, PART=p\n*END "
+                    "INSTANCE\n*ELSET, ELSET=SET-1, INSTANCE=i\n3\n*END ASSEMBLY\n");
+    EXPECT_EQ(file.soup.parts, (std::vector<int>{1, 3, 2}));
+    EXPECT_EQ(file.part_names, (PartNames{{1, "Set-1"}, {2, "Assembly.SET-1"}}));
 }
 
 TEST(Abaqus, ParametersOfElementSetsMayBeCutShort) {

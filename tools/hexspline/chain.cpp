@@ -221,7 +221,23 @@ void Chain::load_patches() {
     model_.patches = load_triangles(line_, file);
 }
 
+void Chain::remove(const char* name) const {
+    std::error_code problem;
+    std::filesystem::remove(folder_ / name, problem);
+    if (problem)
+        throw hex::Error(hex::ErrorKind::output, "cannot be removed (" + problem.message() + ")",
+                         (folder_ / name).string());
+}
+
+void Chain::remove_results_after(Stage stage) const {
+    remove("report.json");
+    if (stage < map_stage) remove("3-map.vtk");
+    if (stage < improve_stage) remove("4-improve.vtk");
+    for (const char* name : {"5-spline.bext", "5-spline.vtu"}) remove(name);
+}
+
 void Chain::write(hex::HexStage stage, const hex::HexModel& model) const {
+    remove_results_after(static_cast<Stage>(stage));
     switch (stage) {
         case hex::HexStage::segment:
             hex::io::write_labels(folder_ / "1-labels.txt", model.segmentation->labels);
@@ -233,14 +249,7 @@ void Chain::write(hex::HexStage stage, const hex::HexModel& model) const {
                 if (!is_given("segmentation", folder_ / "2-patches.k"))
                     hex::io::write_surface(folder_ / "2-patches.k", hex::to_soup(*model.patches));
             } else {
-                for (const char* name : {"2-polycube.k", "2-patches.k"}) {
-                    std::error_code problem;
-                    std::filesystem::remove(folder_ / name, problem);
-                    if (problem)
-                        throw hex::Error(hex::ErrorKind::output,
-                                         "cannot be removed (" + problem.message() + ")",
-                                         (folder_ / name).string());
-                }
+                for (const char* name : {"2-polycube.k", "2-patches.k"}) remove(name);
             }
             if (model.blocks && !is_given("blocks", folder_ / "2-blocks.k"))
                 hex::io::write_hex_mesh(folder_ / "2-blocks.k", *model.blocks);

@@ -50,7 +50,11 @@ class Chain {
     void count_time(Stage stage, std::chrono::steady_clock::time_point start);
     void add_seconds(Stage stage, double seconds);
 
-    /// Writes the file or files of a stage.
+    void remove(const char* name) const;
+    /// What an earlier run made of other results of `stage`, and its report. Patches and blocks stay: a
+    /// person may have put them there.
+    void remove_results_after(Stage stage) const;
+    /// Writes the file or files of a stage, in place of its own and those of later stages.
     void write(hex::HexStage stage, const hex::HexModel& model) const;
     Json report() const;
 

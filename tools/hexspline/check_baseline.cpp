@@ -64,6 +64,7 @@ std::string Baseline::not_compared(const Findings& findings) const {
     const auto add = [&](const std::string& what) { text.append(text.empty() ? "" : ", ").append(what); };
     if (!findings.distance && number({"surface_distance", "max_percent"}))
         add("the distance to a surface (there is no --surface)");
+    if (findings.bezier && report_.contains("nodes")) add("nodes and boundary (not looked at in a spline)");
     for (const std::string& name : unknown_metrics_) add("'" + name + "' (there is no such metric)");
     return text;
 }
@@ -100,9 +101,13 @@ std::vector<Gate> Baseline::compare(const Findings& findings, double tolerance, 
         compare(name, before, static_cast<double>(now), BetterWhen::smaller, 0.0);
     };
     count("inverted", number({"inverted"}), findings.inverted.size());
-    count("duplicate-nodes", number({"nodes", "duplicate"}), findings.defects.duplicates.size());
-    count("unused-nodes", number({"nodes", "unused"}), findings.defects.unused.size());
-    count("open-boundary", number({"boundary", "open_edges"}), findings.defects.open_edges.size());
+    if (!findings.bezier) {
+        count("duplicate-nodes", number({"nodes", "duplicate"}), findings.defects.duplicates.size());
+        count("unused-nodes", number({"nodes", "unused"}), findings.defects.unused.size());
+        count("pinched-nodes", number({"nodes", "pinched"}), findings.defects.pinched.size());
+        count("open-boundary", number({"boundary", "open_edges"}), findings.defects.open_edges.size());
+        count("cracks", number({"boundary", "cracks"}), findings.defects.cracks.size());
+    }
     if (findings.distance)
         compare("surface-distance", number({"surface_distance", "max_percent"}),
                 findings.distance->percent(findings.distance->max()), BetterWhen::smaller,

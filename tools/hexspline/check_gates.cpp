@@ -81,6 +81,9 @@ Gate bezier_gate(const spline::JacobianReport& report, std::size_t worst) {
     gate.demand = "the Jacobian of every element is proved positive";
     gate.found = fmt::format("{} proved positive, {} negative, {} undecided", report.positive,
                              report.negative.size(), report.undecided.size());
+    if (report.singular > 0)
+        gate.found +=
+            fmt::format(" ({} of the positive are 0 at a corner or along an edge)", report.singular);
     gate.passed = report.proved();
     gate.bad = report.negative.size() + report.undecided.size();
     for (const auto* list : {&report.negative, &report.undecided})

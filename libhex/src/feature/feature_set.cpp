@@ -68,8 +68,7 @@ FeatureSet features_by_angle(const HexMesh& mesh, const EdgeTable& edges, const 
     return classify(edges, boundary, std::move(sharp));
 }
 
-FeatureSet features_from_vertices(const HexMesh& mesh, const EdgeTable& edges, const BoundaryQuads& boundary,
-                                  std::span<const std::int64_t> vertices) {
+std::vector<char> flags_of_sharp(const HexMesh& mesh, std::span<const std::int64_t> vertices) {
     std::vector<char> listed(mesh.vertex_count(), 0);
     for (const std::int64_t v : vertices) {
         if (v < 0 || v >= static_cast<std::int64_t>(mesh.vertex_count()))
@@ -78,6 +77,12 @@ FeatureSet features_from_vertices(const HexMesh& mesh, const EdgeTable& edges, c
                             " vertices, counted from 0; give the ids of this mesh");
         listed[static_cast<std::size_t>(v)] = 1;
     }
+    return listed;
+}
+
+FeatureSet features_from_vertices(const HexMesh& mesh, const EdgeTable& edges, const BoundaryQuads& boundary,
+                                  std::span<const std::int64_t> vertices) {
+    const std::vector<char> listed = flags_of_sharp(mesh, vertices);
     std::vector<char> sharp(edges.size(), 0);
     parallel_for(sharp.size(), [&](std::size_t e) {
         const auto& [a, b] = edges.vertices[e];

@@ -1,8 +1,7 @@
 #include "improve/guide_options.h"
 
-#include <hex/base/error.h>
+#include <hex/feature/feature_set.h>
 
-#include <string>
 #include <vector>
 
 namespace hex::improving {
@@ -28,16 +27,7 @@ GuideSurface make_guide_surface(const HexMesh& mesh, const BoundaryQuads& bounda
     }
     if (options.surface != nullptr) return make_guide_surface(*options.surface);
     std::vector<char> listed;
-    if (options.features == FeatureSource::list) {
-        listed.assign(mesh.vertex_count(), 0);
-        for (const std::int64_t v : options.feature_vertices) {
-            if (v < 0 || v >= static_cast<std::int64_t>(mesh.vertex_count()))
-                throw Error(ErrorKind::bad_input, "sharp vertex " + std::to_string(v) + " does not exist", {},
-                            "the mesh has " + std::to_string(mesh.vertex_count()) +
-                                " vertices, counted from 0; give the ids of this mesh");
-            listed[static_cast<std::size_t>(v)] = 1;
-        }
-    }
+    if (options.features == FeatureSource::list) listed = flags_of_sharp(mesh, options.feature_vertices);
     return make_guide_surface(mesh, boundary, listed);
 }
 

@@ -20,6 +20,8 @@ void check_options(const HexMesh& mesh, const ImproveOptions& options) {
         refuse("the cosine of the feature angle is not in [-1, 1]", "the paper's rod takes 0.8");
     if (!(options.time_limit >= 0.0)) refuse("the time limit is negative", "give seconds, or 0 for none");
     if (!(options.work_limit >= 0.0)) refuse("the work limit is negative", "give evaluations, or 0 for none");
+    // Also for methods that need no features.
+    if (options.features == FeatureSource::list) flags_of_sharp(mesh, options.feature_vertices);
     if (!(options.target > 0.0 && options.target <= 1.0))
         refuse("the target is not in (0, 1]", "it is a scaled Jacobian; 1 means as good as possible");
 }

@@ -159,14 +159,14 @@ class AbaqusReader {
             corners_ = *corners;
             if (of_assembly() && corners_ > 0)
                 fail("elements of the assembly are not supported", ErrorKind::unsupported);
-            set_ = value("ELSET").empty() ? -1 : sets_.index_of(value("ELSET"));
+            set_ = value("ELSET").empty() ? -1 : set_named(value("ELSET"));
             block_ = corners_ > 0 ? Block::element : Block::skipped_element;
             if (corners_ == 0) ++skipped_blocks_;
             continued_ = false;
         } else if (word.name == "ELSET") {
             if (value("ELSET").empty()) fail("*ELSET needs ELSET=name");
             block_ = Block::element_set;
-            set_ = sets_.index_of(value("ELSET"));
+            set_ = set_named(value("ELSET"));
             generate_ = is_generated(word);
         } else if (word.name == "NSET" || word.name == "SURFACE") {
             skipped_keywords_[word.name].push_back(position_);
@@ -177,6 +177,15 @@ class AbaqusReader {
             fail("a second *INSTANCE: assemblies of several instances are not supported",
                  ErrorKind::unsupported);
         }
+    }
+
+    /// The assembly has names of its own: one that its part has, too, is another set.
+    int set_named(const std::string& name) {
+        if (!of_assembly()) {
+            part_sets_.insert(upper_case(name));
+            return sets_.index_of(name);
+        }
+        return sets_.index_of(part_sets_.contains(upper_case(name)) ? "Assembly." + name : name);
     }
 
     /// Whether what is read now is the assembly's own, not of a part or an instance of one.
@@ -407,6 +416,7 @@ class AbaqusReader {
     std::map<std::string, std::vector<std::size_t>> skipped_keywords_;  // positions in the file
     std::vector<long long> skipped_ids_;
     ElementSets sets_;
+    std::set<std::string> part_sets_;  ///< names in capitals
 };
 
 void append_nodes(OutputFile& out, std::span<const Vec3> points) {

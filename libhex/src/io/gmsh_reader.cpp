@@ -14,6 +14,7 @@
 #include <map>
 #include <numeric>
 #include <set>
+#include <tuple>
 
 namespace hex::io {
 namespace {
@@ -157,6 +158,7 @@ class GmshReader {
             const int physical = numbers_.small_integer("a physical tag");
             if (g == 0) first = physical;
         }
+        if (dimension >= 2 && groups > 1) ++entities_in_several_groups_;
         groups_[{dimension, tag}] = {group_named(first), parent};
         if (dimension == 0) return;
         const std::size_t bounding = numbers_.count("the number of bounding entities", 2);
@@ -313,6 +315,36 @@ class GmshReader {
         end("$EndElements");
     }
 
+    /// Version 2.2 writes an element once for each of its groups; version 4.1 names the groups of an entity.
+    void drop_copies() {
+        const auto is_of_first = [&](const Element& element) {
+            return element.group == elements_.front().group;
+        };
+        const bool may_overlap =
+            !new_layout_ && !std::all_of(elements_.begin(), elements_.end(), is_of_first);
+        std::vector<std::uint32_t> order(may_overlap ? elements_.size() : 0);
+        std::iota(order.begin(), order.end(), 0U);
+        const auto place = [&](std::uint32_t e) {
+            return std::tie(elements_[e].corners, elements_[e].entity, elements_[e].nodes);
+        };
+        std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+            return std::tuple_cat(place(a), std::tie(a)) < std::tuple_cat(place(b), std::tie(b));
+        });
+        std::vector<char> is_copy(elements_.size(), 0);
+        for (std::size_t i = 1; i < order.size(); ++i)
+            if (place(order[i]) == place(order[i - 1]) &&
+                elements_[order[i]].group != elements_[order[i - 1]].group)
+                is_copy[order[i]] = 1;
+        const auto copies = static_cast<std::size_t>(std::count(is_copy.begin(), is_copy.end(), 1));
+        if (copies > 0) {
+            std::size_t e = 0;
+            std::erase_if(elements_, [&](const Element&) { return is_copy[e++] != 0; });
+        }
+        if (copies + entities_in_several_groups_ > 0)
+            data_.warn("groups-overlap",
+                       "physical groups overlap: an element belongs to the first that has it");
+    }
+
     /// A part is a physical group; what is in none is a part by its entity, under another number where that
     /// is one of a group.
     void number_parts() {
@@ -354,6 +386,7 @@ class GmshReader {
 
     /// In the order of their tags: files of version 4 hold them part by part.
     void finish() {
+        drop_copies();
         number_parts();
         std::vector<std::uint32_t> order(elements_.size());
         std::iota(order.begin(), order.end(), 0U);
@@ -405,6 +438,7 @@ class GmshReader {
     bool has_nodes_ = false;
     bool has_elements_ = false;
     std::size_t skipped_ = 0;
+    std::size_t entities_in_several_groups_ = 0;
     IdMap node_tags_;
     std::vector<Element> elements_;
     std::map<std::pair<int, int>, std::string> names_;           ///< of groups, by dimension and tag

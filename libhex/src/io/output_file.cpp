@@ -1,4 +1,5 @@
 #include <hex/base/error.h>
+#include <hex/io/number_text.h>
 #include <hex/io/output_file.h>
 
 #include <fcntl.h>
@@ -6,6 +7,8 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <climits>
+#include <cstdio>
 #include <cstring>
 #include <mutex>
 #include <set>
@@ -33,8 +36,32 @@ void abandon_output_files() noexcept {
     for (const std::string& name : unfinished().names) ::unlink(name.c_str());
 }
 
+namespace {
+
+/// 1 of "/dev/stdout", "/dev/fd/1" and "/proc/self/fd/1"; -1 of other names. Behind these there may be a file
+/// that somebody else writes to, which is to be gone on with and not replaced.
+int open_descriptor(const std::filesystem::path& path) {
+    const std::string name = path.lexically_normal().string();
+    if (name == "/dev/stdout") return STDOUT_FILENO;
+    if (name == "/dev/stderr") return STDERR_FILENO;
+    for (const std::string_view folder : {"/dev/fd/", "/proc/self/fd/"}) {
+        if (!name.starts_with(folder)) continue;
+        const auto number = parse_integer(std::string_view(name).substr(folder.size()));
+        if (number && *number >= 0 && *number <= INT_MAX) return static_cast<int>(*number);
+    }
+    return -1;
+}
+
+}  // namespace
+
 OutputFile::OutputFile(std::filesystem::path path) : path_(std::move(path)) {
     std::error_code problem, ignored;
+    if (const int open = open_descriptor(path_); open >= 0) {
+        if (open == STDOUT_FILENO) std::fflush(stdout);
+        descriptor_ = ::fcntl(open, F_DUPFD_CLOEXEC, 0);
+        if (descriptor_ < 0) fail("cannot be opened for writing", errno);
+        return;
+    }
     const auto status = std::filesystem::status(path_, problem);
     if (problem == std::errc::too_many_symbolic_link_levels) fail("cannot be written", problem.value());
     if (std::filesystem::is_directory(status)) fail("is a directory, not a file to write", 0);

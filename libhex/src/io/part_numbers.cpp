@@ -55,7 +55,8 @@ std::string name_of_part(int part, const PartNames& names) {
 PartNames names_without(std::string_view forbidden, std::span<const int> parts, const PartNames& names) {
     PartNames written;
     for (const int part : parts) {
-        std::string name = name_of_part(part, names);
+        std::string name(trimmed(name_of_part(part, names)));
+        if (name.empty()) name = name_of_part(part, {});
         for (char& c : name)
             if (static_cast<unsigned char>(c) < 32 || forbidden.find(c) != std::string_view::npos) c = '_';
         written.emplace(part, std::move(name));

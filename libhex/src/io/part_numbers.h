@@ -19,7 +19,7 @@ std::vector<int> number_parts(const std::vector<std::string>& names, PartNames& 
 std::string name_of_part(int part, const PartNames& names);
 
 /// The names of the parts as a format writes them that knows no control characters and none of `forbidden`,
-/// which become '_'. `parts` are distinct.
+/// which become '_', nor blanks at the ends; one of nothing else is "PART_7". `parts` are distinct.
 PartNames names_without(std::string_view forbidden, std::span<const int> parts, const PartNames& names);
 
 /// The same where parts are known by their names: no two differ only in case, and "PART_7" is part 7. Those

@@ -363,8 +363,8 @@ double warpage(const Corners& p) {
             const Point &a = corner(start), &b = corner(start + 1), &c = corner(start + 2),
                         &d = corner((start + 3) % 4);
             const Point one = cross(b - a, c - a), other = cross(c - a, d - a);
-            const double scale = length(one) * length(other);
-            if (scale <= verdict_min) return 180.0;
+            const double size = std::max({length(b - a), length(c - a), length(d - a)});
+            if (length(one) * length(other) <= verdict_min * size * size * size * size) return 180.0;
             // Exact for flat faces, too, where the arc cosine loses half of the digits.
             const double angle = std::atan2(length(cross(one, other)), dot(one, other));
             largest = std::max(largest, angle * (180.0 / 3.14159265358979323846));

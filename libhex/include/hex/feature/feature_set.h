@@ -43,6 +43,9 @@ FeatureSet no_features(const HexMesh& mesh, const EdgeTable& edges, const Bounda
 FeatureSet features_by_angle(const HexMesh& mesh, const EdgeTable& edges, const BoundaryQuads& boundary,
                              double cosine);
 
+/// 1 for each vertex that is listed, 0 for the others. Throws Error{bad_input} for an id out of range.
+std::vector<char> flags_of_sharp(const HexMesh& mesh, std::span<const std::int64_t> vertices);
+
 /// A boundary edge is sharp when both its ends are listed (sharp.txt). Listed vertices that are not on the
 /// boundary are ignored; a listed vertex without sharp edge is smooth. Throws Error{bad_input} for an id out
 /// of range.
