@@ -26,11 +26,11 @@ auto with_threads(const Context& context, Body&& body) {
 /// `body(i)` for i in [0, count), in parallel, in no particular order. `body` must write only to what i owns.
 template <class Body>
 void parallel_for(std::size_t count, const Body& body, std::size_t grain = 256) {
-    const detail::ParallelSection section;
-    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain), [&](const auto& range) {
-        const auto part = section.part();
+    const auto items = [&](const auto& range) {
         for (std::size_t i = range.begin(); i != range.end(); ++i) body(i);
-    });
+    };
+    const detail::ParallelSection section;
+    tbb::parallel_for(tbb::blocked_range<std::size_t>(0, count, grain), detail::PartOf(section, items));
 }
 
 namespace detail {

@@ -16,12 +16,10 @@ namespace hex {
 /// slot is used again and comes as it was left. The order of takes does not depend on the number of threads.
 template <class Slot, class Make, class Take>
 void parallel_ordered(std::size_t count, std::vector<Slot>& slots, const Make& make, const Take& take) {
-    const detail::ParallelSection section;
     const detail::HandOver numbers, takes;
     const std::vector<detail::HandOver> slots_over(slots.size());
     std::size_t next = 0;
     const auto number = [&](tbb::flow_control& control) -> std::size_t {
-        const auto part = section.part();
         const detail::HandedOver turn(numbers, numbers);
         if (next == count) {
             control.stop();
@@ -31,23 +29,25 @@ void parallel_ordered(std::size_t count, std::vector<Slot>& slots, const Make& m
     };
     // Things are taken in order, so what is held is a run of at most slots.size() numbers: no two share one.
     const auto made = [&](std::size_t i) {
-        const auto part = section.part();
         const std::size_t slot = i % slots.size();
         const detail::HandedOver held(slots_over[slot], slots_over[slot]);
         make(i, slots[slot]);
         return i;
     };
     const auto taken = [&](std::size_t i) {
-        const auto part = section.part();
         const std::size_t slot = i % slots.size();
         const detail::HandedOver held(slots_over[slot], slots_over[slot]);
         const detail::HandedOver turn(takes, takes);
         take(i, slots[slot]);
     };
-    tbb::parallel_pipeline(slots.size(),
-                           tbb::make_filter<void, std::size_t>(tbb::filter_mode::serial_in_order, number) &
-                               tbb::make_filter<std::size_t, std::size_t>(tbb::filter_mode::parallel, made) &
-                               tbb::make_filter<std::size_t, void>(tbb::filter_mode::serial_in_order, taken));
+    const detail::ParallelSection section;
+    using detail::PartOf;
+    using tbb::filter_mode;
+    tbb::parallel_pipeline(
+        slots.size(),
+        tbb::make_filter<void, std::size_t>(filter_mode::serial_in_order, PartOf(section, number)) &
+            tbb::make_filter<std::size_t, std::size_t>(filter_mode::parallel, PartOf(section, made)) &
+            tbb::make_filter<std::size_t, void>(filter_mode::serial_in_order, PartOf(section, taken)));
 }
 
 }  // namespace hex

@@ -13,8 +13,14 @@
 #endif
 #endif
 
+#include <utility>
+
 #ifdef HEXSPLINE_THREAD_SANITIZER
 #include <sanitizer/tsan_interface.h>
+/// A function whose own reads and writes ThreadSanitizer does not see; those of what it calls it sees.
+#define HEXSPLINE_UNSEEN_BY_THREAD_SANITIZER __attribute__((no_sanitize("thread")))
+#else
+#define HEXSPLINE_UNSEEN_BY_THREAD_SANITIZER
 #endif
 
 namespace hex::detail {
@@ -52,7 +58,8 @@ class HandedOver {
     const HandOver& to_;
 };
 
-/// A parallel section of the thread that makes it: parts begin after its start and end before it does.
+/// A parallel section of the thread that makes it: parts begin after its start and end before it does. What
+/// the parts read is made before it.
 class ParallelSection {
   public:
     ParallelSection() noexcept { start_.leave(); }
@@ -65,6 +72,30 @@ class ParallelSection {
 
   private:
     HandOver start_, end_;
+};
+
+/// `work` as a part of `section`, for oneTBB to carry in its tasks; both must outlive the loop. oneTBB copies
+/// it from task to task while the section runs, so its start does not tell of these copies: the two addresses
+/// in them are read unseen, and the work is done after the section's start and before its end.
+template <class Work>
+class PartOf {
+  public:
+    PartOf(const ParallelSection& section, const Work& work) noexcept : section_(&section), work_(&work) {}
+
+    template <class... Arguments>
+    HEXSPLINE_UNSEEN_BY_THREAD_SANITIZER decltype(auto) operator()(Arguments&&... arguments) const {
+        return run(*section_, *work_, std::forward<Arguments>(arguments)...);
+    }
+
+  private:
+    template <class... Arguments>
+    static decltype(auto) run(const ParallelSection& section, const Work& work, Arguments&&... arguments) {
+        const auto part = section.part();
+        return work(std::forward<Arguments>(arguments)...);
+    }
+
+    const ParallelSection* section_;
+    const Work* work_;
 };
 
 }  // namespace hex::detail
