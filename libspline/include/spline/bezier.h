@@ -15,14 +15,16 @@
 
 namespace spline {
 
+/// x, y, z (not multiplied by the weight) and weight of a Bezier point.
 using BezierPoint = Eigen::Vector4d;
 
 /// Tricubic Bezier elements over shared control points. A Bezier point that several elements share is stored
 /// once when the spline was built here; a spline read from a file has 64 points an element.
 struct BezierSpline {
-    std::vector<hex::Vec3> control_points;
-    std::vector<double> weights;  ///< > 0, one a control point; all 1 for a polynomial spline
-    SparseRows rows;              ///< of each Bezier point, over the control points (a row of M T)
+    std::vector<hex::Vec3> control_points;  ///< positions, one a function
+    std::vector<double> weights;            ///< > 0, one a control point; all 1 for a polynomial spline
+    SparseRows rows;                        ///< of each Bezier point, over the control points (a row of M T)
+    /// Bezier points of each element as rows of `rows`, point i + 4 j + 16 k.
     std::vector<std::array<std::uint32_t, 64>> elements;
 
     std::vector<std::uint16_t> element_level;  ///< of the hierarchy; 0 when not known
@@ -31,8 +33,11 @@ struct BezierSpline {
     /// that hang together across smooth edges are one patch. Empty when not known.
     std::vector<std::array<std::int32_t, 6>> boundary_patch;
 
+    /// Number of Bezier elements.
     std::size_t element_count() const { return elements.size(); }
+    /// Number of spline functions: each control point has one.
     std::size_t function_count() const { return control_points.size(); }
+    /// Whether any weight is other than 1 (exactly).
     bool rational() const;
 };
 
@@ -62,6 +67,7 @@ struct ElementExtraction {
 /// Gathers the extraction of elements one after the other; holds its working memory. One object a thread.
 class ExtractionGatherer {
   public:
+    /// Keeps a reference: `spline` must outlive the object.
     explicit ExtractionGatherer(const BezierSpline& spline) : spline_(spline) {}
     /// Valid until the next call.
     const ElementExtraction& operator()(std::size_t element);
@@ -77,7 +83,7 @@ std::vector<BezierPoint> bezier_points(const BezierSpline& spline);
 
 /// Point of an element at (u, v, w) in [0,1]^3, and its first derivatives.
 struct ElementPoint {
-    hex::Vec3 point;
+    hex::Vec3 point;           ///< its position
     Eigen::Matrix3d jacobian;  ///< column a is the derivative by the a-th parameter
 };
 
@@ -85,19 +91,22 @@ struct ElementPoint {
 ElementPoint evaluate(const BezierSpline& spline, const std::vector<BezierPoint>& points, std::size_t element,
                       const hex::Vec3& uvw);
 
-/// The four cubic Bernstein polynomials at t, and their derivatives.
+/// The four cubic Bernstein polynomials at t in [0,1]; they sum to 1.
 std::array<double, 4> bernstein(double t);
+/// First derivatives of the four at t; they sum to 0.
 std::array<double, 4> bernstein_derivative(double t);
 
 /// Figures that tell whether a spline is sound.
 struct BezierSummary {
-    std::size_t control_points = 0;
-    std::size_t elements = 0;
-    std::size_t functions_min = 0, functions_max = 0;  ///< functions of an element
-    double functions_mean = 0.0;
+    std::size_t control_points = 0;         ///< of the spline, used by an element or not
+    std::size_t elements = 0;               ///< of the spline, all levels together
+    std::size_t functions_min = 0,          ///< fewest functions of an element
+        functions_max = 0;                  ///< most functions of an element
+    double functions_mean = 0.0;            ///< mean number of functions of an element
     double partition_of_unity_error = 0.0;  ///< largest |sum of coefficients - 1| of a Bezier point
-    double smallest_coefficient = 0.0;
+    double smallest_coefficient = 0.0;      ///< of any row; > 0 for a spline built here
 };
+/// Looks at every element and every row. Of a spline without elements all but `control_points` is 0.
 BezierSummary summarize(const BezierSpline& spline);
 
 }  // namespace spline

@@ -29,8 +29,10 @@ namespace spline {
 /// end), then 1 a vertex. The mesh must outlive the object.
 class BlendingOperator {
   public:
+    /// Only numbers the points; rows are made when asked for. Keeps a reference to `level`.
     explicit BlendingOperator(const LevelMesh& level);
 
+    /// Number of Bezier points of the whole mesh: numbers of points are below this.
     std::size_t point_count() const { return vertex_points_ + level_.mesh.vertex_count(); }
 
     /// The 64 points of an element, point i + 4 j + 16 k at (i,j,k) along (u,v,w).

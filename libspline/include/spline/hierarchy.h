@@ -24,25 +24,27 @@ namespace spline {
 /// Cell c of a level above 0 is child c % 8 of the (c / 8)-th of: the refined cells of the level below, then
 /// its buffer cells.
 struct HierarchyLevel {
-    LevelMesh control;
+    LevelMesh control;                 ///< mesh of the level: first its domain, then the buffer around it
     SparseRows coefficients;           ///< C from the level below; empty at level 0
     std::size_t domain_cells = 0;      ///< cells [0, domain_cells) make up Omega(l); the others are a buffer
     std::vector<hex::CellId> refined;  ///< chosen for refinement: first as listed, then added by closure
     std::vector<hex::CellId> buffer;   ///< the other cells around refined ones, in the published order
-    std::vector<char> element_active;
-    std::vector<char> function_determined;  ///< in D(l)
-    std::vector<char> function_active;
-    std::vector<std::uint32_t> function;  ///< number of an active function in the spline, else no_function
+    std::vector<char> element_active;  ///< one flag a cell: in Omega(l), not refined
+    std::vector<char> function_determined;  ///< one flag a vertex: in D(l)
+    std::vector<char> function_active;      ///< one flag a vertex: in D(l), support not all in Omega(l+1)
+    std::vector<std::uint32_t> function;    ///< number of an active function in the spline, else no_function
 };
 
+/// Stands for the number of a function that is not active (HierarchyLevel::function).
 inline constexpr std::uint32_t no_function = 0xffffffffU;
 
+/// All levels of a spline, and the numbers of its functions.
 struct Hierarchy {
-    std::vector<HierarchyLevel> levels;
-    std::size_t function_count = 0;
-    /// Elements that closure or grading added to the list of each level.
+    std::vector<HierarchyLevel> levels;  ///< coarsest first, one more than lists that name an element
+    std::size_t function_count = 0;      ///< active functions of all levels; numbered by level, then vertex
+    /// Elements that closure or grading added to the list of each level: how many, one number a list.
     std::vector<std::size_t> added;
-    hex::Diagnostics diagnostics;
+    hex::Diagnostics diagnostics;  ///< their codes are listed at build_hierarchy
 };
 
 /// Refines `coarsest` by `refinement`: entry l lists the elements of level l, 0-based in the cell order of

@@ -22,23 +22,25 @@
 
 namespace spline {
 
+/// What is proved of the sign of the Jacobian determinant of an element.
 enum class JacobianVerdict : std::uint8_t {
     positive,  ///< proved: positive in the whole element, or zero only on edges and corners named as singular
     negative,  ///< proved: negative at a point
-    undecided,  ///< neither, after all subdivisions allowed
+    undecided,  ///< neither, after the subdivisions allowed or where a value is zero within rounding
 };
 
+/// How hard to try before an element is left undecided.
 struct JacobianOptions {
     int most_subdivisions = 7;      ///< depth of halving, >= 0
-    std::size_t most_parts = 2000;  ///< parts of one element that are looked at
+    std::size_t most_parts = 2000;  ///< parts of one element that are looked at, at most
 };
 
 /// What is known of the Jacobian determinant of one element, for parameters in [0,1]^3.
 struct ElementJacobian {
-    JacobianVerdict verdict = JacobianVerdict::undecided;
-    double lower = 0.0;     ///< the determinant is nowhere below this
-    double smallest = 0.0;  ///< the smallest value met: at `at`
-    hex::Vec3 at = hex::Vec3::Zero();
+    JacobianVerdict verdict = JacobianVerdict::undecided;  ///< sign of the determinant
+    double lower = 0.0;                                    ///< the determinant is nowhere below this
+    double smallest = 0.0;                                 ///< the smallest value met: at `at`
+    hex::Vec3 at = hex::Vec3::Zero();                      ///< (u, v, w) of `smallest`, in [0,1]^3
     /// Edges (bit e of hexahedron::edge_corners) and corners (bit 12 + c) on which the determinant is zero
     /// within rounding. A smooth boundary edge with one element is so by construction.
     std::uint32_t singular = 0;
@@ -54,20 +56,25 @@ ElementJacobian bound_jacobian(std::span<const BezierPoint, 64> points, const Ja
 
 /// Verdicts of all elements.
 struct JacobianReport {
-    std::vector<ElementJacobian> elements;
-    std::size_t positive = 0;  ///< proved positive
-    std::size_t singular = 0;  ///< of them, zero on an edge or at a corner
-    std::vector<std::int64_t> negative, undecided;
-    double lower = 0.0;       ///< least of the lower bounds
-    std::int64_t worst = -1;  ///< element that has it
+    std::vector<ElementJacobian> elements;  ///< one an element, in their order
+    std::size_t positive = 0;               ///< proved positive
+    std::size_t singular = 0;               ///< of them, zero on an edge or at a corner
+    std::vector<std::int64_t> negative,     ///< elements proved negative somewhere, ascending
+        undecided;                          ///< elements of which neither is proved, ascending
+    double lower = 0.0;                     ///< least of the lower bounds
+    std::int64_t worst = -1;                ///< element that has it
 
+    /// Every element is proved positive.
     bool proved() const { return negative.empty() && undecided.empty(); }
     /// Fills the counts and lists from `elements`.
     void count();
 };
 
+/// Bounds the determinant of every element of a spline, as `bound_jacobian` does. The same report for any
+/// number of threads. Throws Error{cancelled}.
 JacobianReport certify(const BezierSpline& spline, const JacobianOptions& options = {},
                        const hex::Context& context = {});
+/// Likewise of every cell of a mesh, as a trilinear hexahedron.
 JacobianReport certify(const hex::HexMesh& mesh, const JacobianOptions& options = {},
                        const hex::Context& context = {});
 

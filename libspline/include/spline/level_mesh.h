@@ -19,26 +19,29 @@ namespace spline {
 
 /// The unique faces of a mesh, in the order in which they first appear (cell, then local face).
 struct FaceTable {
-    std::vector<std::uint32_t> of_half_face;
+    std::vector<std::uint32_t> of_half_face;  ///< face of each half-face; twins have the same
     std::vector<hex::HalfFaceId> half_faces;  ///< the first of the one or two half-faces of each face
+    /// Number of faces.
     std::size_t size() const { return half_faces.size(); }
 };
 
+/// Mesh, topology and features of one level; made by `coarsest_level` and `subdivide`.
 struct LevelMesh {
-    hex::HexMesh mesh;  ///< its positions are the control points P of the level
-    hex::EdgeTable edges;
-    FaceTable faces;
+    hex::HexMesh mesh;            ///< its positions are the control points P of the level
+    hex::EdgeTable edges;         ///< of the mesh; `boundary` flags those on the solid's boundary only
+    FaceTable faces;              ///< of the mesh
     hex::BoundaryQuads boundary;  ///< only quads of the solid's boundary
-    hex::FeatureSet features;
+    hex::FeatureSet features;     ///< sharp edges and classes of vertices; finer levels inherit theirs
     /// Patch of each boundary quad: quads that hang together across smooth edges. Numbered in the order of
     /// the quads of level 0; a quad of a finer level is on its parent's.
     std::vector<std::int32_t> patch_of_quad;
     hex::CompressedRows<hex::CellId> stars;  ///< cells around each vertex, ascending
-    /// Cells are missing around this vertex or edge: its mesh ends here, but not the solid. Never so at level
-    /// 0, nor at a vertex of an element of the domain.
+    /// One flag a vertex. Cells are missing around it: the mesh ends here, but not the solid. Never so at
+    /// level 0, nor at a vertex of an element of the domain.
     std::vector<char> open_vertex;
-    std::vector<char> open_edge;
+    std::vector<char> open_edge;  ///< one flag an edge: likewise
 
+    /// Inside the solid, all its cells are there, and they are not four.
     bool is_extraordinary(hex::EdgeId e) const {
         return open_edge[e.index()] == 0 && edges.is_extraordinary(e);
     }
@@ -48,6 +51,7 @@ struct LevelMesh {
 LevelMesh coarsest_level(hex::HexMesh mesh, hex::EdgeTable edges, hex::BoundaryQuads boundary,
                          hex::FeatureSet features);
 
+/// Numbers the faces of a mesh. An interior face has its number from both its cells.
 FaceTable face_table(const hex::HexMesh& mesh);
 
 /// One flag a vertex: the spline around it is a tensor product, so the functions of the elements whose eight
@@ -65,6 +69,7 @@ enum class ElementClass : std::uint8_t {
     irregular,  ///< inside, with a vertex on an extraordinary edge
     regular,    ///< the rest: plain tricubic B-splines
 };
+/// Class of each cell of a level.
 std::vector<ElementClass> classify_elements(const LevelMesh& level);
 
 /// Number of extraordinary edges by valence.

@@ -11,23 +11,26 @@
 
 namespace spline {
 
+/// Which elements of a level to divide. Of the members below only those that `kind` names count, and `level`.
 struct RefineRegion {
+    /// How elements are chosen.
     enum class Kind : std::uint8_t {
         box,      ///< elements whose bounding box meets `box`
         sphere,   ///< elements whose bounding box comes within `radius` of `center`
-        points,   ///< for each point the element around or nearest to it
+        points,   ///< for each point the element whose bounding box, then its centre, is nearest to it
         patches,  ///< elements with a face on one of these patches (LevelMesh::patch_of_quad)
         worst,    ///< the `share` of the elements with the least scaled Jacobian, at least one
-        /// The `share` of the elements whose boundary is farthest from the part, at least one; only
-        /// `spline::build` can tell, by SplineOptions::fit_errors.
+        /// Those whose boundary is farthest from the part: as many as the `share` of all elements of the
+        /// level that are not yet divided, at least one unless none is on the boundary. Only `spline::build`
+        /// can tell, by SplineOptions::fit_errors.
         worst_fit,
     };
-    Kind kind = Kind::box;
-    hex::BoundingBox box;
-    hex::Vec3 center = hex::Vec3::Zero();
-    double radius = 0.0;
-    std::vector<hex::Vec3> points;
-    std::vector<std::int32_t> patches;
+    Kind kind = Kind::box;                  ///< how elements are chosen
+    hex::BoundingBox box;                   ///< for Kind::box, in the coordinates of the mesh
+    hex::Vec3 center = hex::Vec3::Zero();   ///< of the sphere
+    double radius = 0.0;                    ///< of the sphere, >= 0
+    std::vector<hex::Vec3> points;          ///< for Kind::points
+    std::vector<std::int32_t> patches;      ///< for Kind::patches, 0-based
     std::vector<std::string> patch_places;  ///< `file:line` of each patch, for messages; may be empty
     double share = 0.0;                     ///< in (0, 1]
     int level = 1;                          ///< elements are divided until they are of this level, >= 1

@@ -12,19 +12,22 @@ namespace spline {
 
 /// One row: `columns` ascending and distinct, `values` beside them.
 struct SparseRow {
-    std::span<const std::uint32_t> columns;
-    std::span<const double> values;
+    std::span<const std::uint32_t> columns;  ///< control points
+    std::span<const double> values;          ///< their coefficients
 
+    /// Number of coefficients.
     std::size_t size() const { return columns.size(); }
 };
 
 /// Rows of varying length in three arrays.
 struct SparseRows {
-    std::vector<std::size_t> offsets = {0};
-    std::vector<std::uint32_t> columns;
-    std::vector<double> values;
+    std::vector<std::size_t> offsets = {0};  ///< row r has the entries [offsets[r], offsets[r + 1])
+    std::vector<std::uint32_t> columns;      ///< of every entry, in each row ascending and distinct
+    std::vector<double> values;              ///< coefficient of every entry
 
+    /// Number of rows.
     std::size_t size() const { return offsets.size() - 1; }
+    /// Views into the arrays: valid until they change. `row` is not checked.
     SparseRow operator[](std::size_t row) const {
         const std::size_t begin = offsets[row];
         const std::size_t length = offsets[row + 1] - begin;
@@ -37,15 +40,18 @@ struct SparseRows {
 template <class Value>
 class RowSum {
   public:
+    /// Takes all terms away, but keeps the memory.
     void clear() { terms_.clear(); }
+    /// Adds a term after those that are there.
     void add(std::uint32_t column, Value value) {
         terms_.push_back({column, static_cast<std::uint32_t>(terms_.size()), value});
     }
 
+    /// One summand.
     struct Term {
-        std::uint32_t column;
+        std::uint32_t column;    ///< what it is a coefficient of
         std::uint32_t sequence;  ///< place among the terms added
-        Value value;
+        Value value;             ///< coefficient, or its numerator
     };
 
     /// Sorts and merges; the terms are then distinct and ascending. Clearing is left to the caller.
@@ -71,6 +77,7 @@ class RowSum {
 /// A row whose coefficients are rational numbers with one denominator: sums are exact and each coefficient is
 /// rounded once.
 using RationalRowSum = RowSum<std::int64_t>;
+/// A row whose coefficients are sums of rounded numbers.
 using RealRowSum = RowSum<double>;
 
 }  // namespace spline

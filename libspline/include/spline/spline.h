@@ -26,6 +26,7 @@
 
 namespace spline {
 
+/// What `build` is to make of a mesh.
 struct SplineOptions {
     /// Name of the method in the registry.
     std::string method = "thspline3d";
@@ -54,8 +55,9 @@ struct SplineOptions {
     /// Complete the lists so that functions are continuous across levels (hierarchy.h). Without it the lists
     /// are taken as they are, as the published program does.
     bool closure = true;
-    /// Names of the files that `feature_vertices` and `refinement` come from, for messages; may be empty.
+    /// Name of the file that `feature_vertices` comes from, for messages; may be empty.
     std::string feature_origin;
+    /// Name of the file that `refinement` comes from, likewise.
     std::string refinement_origin;
     /// Go on with inverted elements, and with elements that meet others at an edge or a vertex only.
     bool force = false;
@@ -63,7 +65,7 @@ struct SplineOptions {
 
 /// The control mesh of one level, as far as it is built.
 struct ControlMesh {
-    hex::HexMesh mesh;
+    hex::HexMesh mesh;  ///< the domain's cells (LevelReport::elements), then those around refined ones
     std::vector<char> function_active;    ///< one flag a vertex
     std::vector<char> element_active;     ///< one flag a cell
     std::vector<std::uint32_t> function;  ///< control point of an active vertex, else 0xffffffff
@@ -71,41 +73,56 @@ struct ControlMesh {
         refined;  ///< divided cells; cells 8 k .. 8 k + 7 of the next level are of the k-th
 };
 
+/// Counts of one level of the hierarchy (hierarchy.h).
 struct LevelReport {
-    std::size_t elements = 0;  ///< in Omega(l)
-    std::size_t active_elements = 0;
-    std::size_t active_functions = 0;
+    std::size_t elements = 0;          ///< in Omega(l)
+    std::size_t active_elements = 0;   ///< elements of the spline on this level: those not divided further
+    std::size_t active_functions = 0;  ///< control points of the spline on this level
     std::size_t refined = 0;           ///< elements that are divided further
     std::size_t added_by_closure = 0;  ///< of them, not listed by the user
 };
 
+/// What `build` has made, in numbers. Level 0 is the mesh after global refinement.
 struct SplineReport {
-    std::string method;
-    std::size_t input_vertices = 0, input_elements = 0;
-    /// Classes of the elements of level 0 (after global refinement).
-    std::size_t boundary_elements = 0, irregular_elements = 0, regular_elements = 0;
-    std::map<int, std::size_t> extraordinary_edges;  ///< by valence
-    std::size_t sharp_edges = 0, crease_vertices = 0, corner_vertices = 0;
+    std::string method;                              ///< its name in the registry
+    std::size_t input_vertices = 0,                  ///< of the given mesh, used or not
+        input_elements = 0;                          ///< of the given mesh
+    std::size_t boundary_elements = 0,               ///< of level 0, by ElementClass
+        irregular_elements = 0,                      ///< of level 0, by ElementClass
+        regular_elements = 0;                        ///< of level 0, by ElementClass
+    std::map<int, std::size_t> extraordinary_edges;  ///< of level 0, by valence
+    std::size_t sharp_edges = 0,                     ///< of level 0
+        crease_vertices = 0,                         ///< of level 0: on exactly two sharp edges
+        corner_vertices = 0;                         ///< of level 0: on one sharp edge, or three and more
     /// Elements of level 0 with eight regular vertices: refining these keeps functions and geometry exactly.
     std::size_t refinable_elements = 0;
-    std::vector<LevelReport> levels;
-    BezierSummary summary;
+    std::vector<LevelReport> levels;  ///< coarsest first
+    BezierSummary summary;            ///< of the Bezier extraction
+    /// Of the mesh: `inverted-elements`, `non-manifold` (with `force`), `unused-vertices`; then of the
+    /// hierarchy (build_hierarchy).
     hex::Diagnostics diagnostics;
 };
 
+/// A spline, where it came from, and what is known of it.
 struct SplineResult {
-    BezierSpline spline;
-    std::vector<ControlMesh> levels;
-    SplineReport report;
+    BezierSpline spline;              ///< elements by level, then cell; control points by level, then vertex
+    std::vector<ControlMesh> levels;  ///< coarsest first
+    SplineReport report;              ///< counts and findings
 };
 
+/// A method of stage `spline`; registered in spline_builders().
 class SplineBuilder {
   public:
     virtual ~SplineBuilder() = default;
+    /// Called by spline::build with options that are checked and a mesh whose vertices are all used; lists of
+    /// feature vertices and edges refer to it, `refinement` is cut to `levels`, and no region is `worst_fit`.
+    /// Fills `spline`, `levels` and the report but for `method`, the input's numbers and `summary`.
+    /// spline::build throws Error{no_result} when indices, sizes or numbers of the result are not sound.
     virtual SplineResult build(const hex::HexMesh& mesh, const SplineOptions& options,
                                const hex::Context& context) const = 0;
 };
 
+/// The methods by name; `thspline3d` is built in.
 hex::Registry<SplineBuilder>& spline_builders();
 
 /// Checks options and mesh and runs `options.method`. Vertices that no cell uses are dropped.

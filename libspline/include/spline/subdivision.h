@@ -22,13 +22,15 @@ namespace spline {
 
 /// What a vertex of the finer mesh is the point of.
 struct FineVertex {
-    enum class Kind : std::uint8_t { body, face, edge, vertex } kind;
+    /// Of a cell, a face, an edge, or the old vertex itself.
+    enum class Kind : std::uint8_t { body, face, edge, vertex } kind;  ///< what `index` counts
     std::uint32_t
         index;  ///< cell, face of the FaceTable, edge of the EdgeTable, or vertex of the coarse mesh
 };
 
+/// A finer level, and how its vertices follow from the coarse one.
 struct Subdivision {
-    LevelMesh fine;
+    LevelMesh fine;                  ///< positions are C P; boundary, patches and features are inherited
     std::vector<FineVertex> origin;  ///< of each fine vertex
     SparseRows coefficients;         ///< C: one row a fine vertex, columns are coarse vertices
 };

@@ -16,7 +16,9 @@
 
 namespace spline {
 
+/// An edge of a mesh by its two vertices, 0-based.
 using VertexPair = std::array<std::int64_t, 2>;
+/// The two ends of a straight piece of a sharp edge.
 using Segment = std::array<hex::Vec3, 2>;
 
 /// Edges between boundary quads of elements of different parts (HexMesh::part).
