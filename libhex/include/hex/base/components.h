@@ -13,6 +13,7 @@ namespace hex {
 /// Union-find over the numbers 0 .. count - 1, fewer than 2^32. Nearly linear.
 class Components {
   public:
+    /// `count` things, each a component of its own.
     explicit Components(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0U); }
 
     /// From now on a and b belong together.
@@ -26,7 +27,9 @@ class Components {
         while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
         return static_cast<std::uint32_t>(i);
     }
+    /// Whether i is the smallest member of its component: one in each component is.
     bool is_root(std::size_t i) const { return parent_[i] == i; }
+    /// Number of things, whatever was joined.
     std::size_t size() const { return parent_.size(); }
 
     /// The component of each thing; components are numbered in the order of their smallest members, and

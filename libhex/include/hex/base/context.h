@@ -8,7 +8,14 @@
 
 namespace hex {
 
-enum class LogLevel { trace, debug, info, warn, error };
+/// How urgent a message is, ascending. The libraries send all of them; who receives them chooses.
+enum class LogLevel {
+    trace,  ///< finer than debug
+    debug,  ///< for developers of a method
+    info,   ///< what was done and found
+    warn,   ///< the result may not be what was wanted
+    error,  ///< something failed (the libraries throw hex::Error instead)
+};
 
 /// Passed by const reference to every stage. A default-constructed one means: all cores, no progress, no
 /// cancel, silent. Results never depend on it. The callbacks may be called from the calling thread only.
@@ -22,9 +29,11 @@ struct Context {
     /// Ask the stage to stop; it then throws Error{cancelled} at the next safe point.
     std::stop_token stop;
 
+    /// Calls `on_progress`, if there is one; `share` of the step is done, in [0, 1].
     void progress(std::string_view step, double share) const {
         if (on_progress) on_progress(step, share);
     }
+    /// Calls `on_log`, if there is one.
     void log(LogLevel level, std::string_view message) const {
         if (on_log) on_log(level, message);
     }

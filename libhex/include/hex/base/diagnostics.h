@@ -10,18 +10,26 @@
 
 namespace hex {
 
-enum class Severity { note, warning, error };
+/// How bad a finding is, ascending.
+enum class Severity {
+    note,     ///< worth knowing, nothing to mend
+    warning,  ///< may spoil the result
+    error,    ///< keeps the next stage from working
+};
 
-/// One finding. `code` is a stable machine-readable name (kebab-case); `ids` are the entities meant, 0-based,
-/// of the kind that `entity` names ("triangle", "vertex", "patch", "cell", "line").
+/// One finding: what was found, how bad it is, and where.
 struct Diagnostic {
-    Severity severity = Severity::warning;
-    std::string code;
-    std::string message;
+    Severity severity = Severity::warning;  ///< how bad it is
+    std::string code;     ///< stable machine-readable name, in kebab-case: "zero-area-triangles"
+    std::string message;  ///< one line for people; it may name the first ids only
+    /// What `ids` number: "triangle", "vertex", "edge", "patch", "chart", "cell", "line", ...; may be empty
+    /// when there are no ids.
     std::string entity;
+    /// The entities meant, counted from 0; lines of a file and faces of a CAD file count from 1.
     std::vector<std::int64_t> ids;
 };
 
+/// Findings in the order in which they were made.
 using Diagnostics = std::vector<Diagnostic>;
 
 /// Number of findings at least as severe as `severity`.

@@ -7,6 +7,7 @@
 
 namespace hex {
 
+/// What kind of failure an error is; the exit code of the program follows from it (exit_code()).
 enum class ErrorKind {
     usage,        ///< the caller asked for something that makes no sense (exit code 2)
     bad_input,    ///< input that cannot be opened, read or understood (exit code 3)
@@ -28,9 +29,13 @@ class Error : public std::runtime_error {
     /// \param advice what the user can do; may be empty
     Error(ErrorKind kind, std::string what, std::string where = {}, std::string advice = {});
 
+    /// The kind it was made with.
     ErrorKind kind() const { return kind_; }
+    /// What is wrong: the `what` it was made with, while what() has the place and the advice, too.
     const std::string& problem() const { return problem_; }
+    /// File, `file:line`, or element ids; empty when not known.
     const std::string& where() const { return where_; }
+    /// What the user can do; empty when there is nothing to say.
     const std::string& advice() const { return advice_; }
 
     /// The same error with its place filled in, if it had none: for callers who know the file name.

@@ -9,13 +9,14 @@ namespace hex {
 
 /// What became of a child process.
 struct IsolatedResult {
-    std::string bytes;    ///< what the body returned
+    std::string bytes;    ///< what the body returned; not to be used after a failure
     std::string failure;  ///< empty, or why the child ended without returning anything, in words
 };
 
+/// When a child process is ended.
 struct IsolatedLimits {
-    unsigned processor_seconds = 0;  ///< 0: none
-    unsigned seconds = 0;            ///< by the clock on the wall; 0: none
+    unsigned processor_seconds = 0;  ///< of computing; 0: no limit
+    unsigned seconds = 0;            ///< by the clock on the wall; 0: no limit
 };
 
 /// Runs `body` in a forked child, with its standard output and error closed, and returns the bytes it

@@ -21,18 +21,21 @@ std::string& registration_origin();
 
 /// What `hexspline plugins` lists of a method.
 struct MethodInfo {
-    std::string stage;
-    std::string name;
-    std::string description;
-    std::string origin;
+    std::string stage;        ///< of its registry: "segment", "polycube", "map", ...
+    std::string name;         ///< by which it is chosen, unique in its stage
+    std::string description;  ///< what it does, in one line
+    std::string origin;       ///< "built-in", or the path of the plug-in it comes from
 };
 
 /// The methods of one stage. `Interface` is its abstract class (`Segmenter`, `Mapper`, ...). Thread-safe.
 template <class Interface>
 class Registry {
   public:
+    /// Makes a new object of a method. It is called under the lock of the registry, so it must not use that
+    /// registry.
     using Factory = std::function<std::unique_ptr<Interface>()>;
 
+    /// An empty registry; `stage` is the name of the stage in messages and lists.
     explicit Registry(std::string stage) : stage_(std::move(stage)) {}
 
     /// Adds a method. Throws Error{usage} when the name is taken.
@@ -60,6 +63,7 @@ class Registry {
         return made;
     }
 
+    /// Whether there is a method of that name.
     bool contains(const std::string& name) const {
         const std::lock_guard lock(mutex_);
         return methods_.contains(name);
@@ -87,6 +91,7 @@ class Registry {
 /// A static object of this type in a .cpp registers `Method` under `name` when the library is loaded.
 template <class Interface, class Method>
 struct Register {
+    /// Adds `Method`, made by its default constructor. Throws what Registry::add throws.
     Register(Registry<Interface>& registry, const std::string& name, const std::string& description) {
         registry.add(name, description, [] { return std::make_unique<Method>(); });
     }

@@ -18,6 +18,7 @@ enum class FeatureSource {
     list,   ///< from a list of vertices
 };
 
+/// What its sharp edges make of a vertex.
 enum class VertexFeature : std::uint8_t {
     interior,  ///< not on the boundary
     smooth,    ///< on the boundary, no sharp edge
@@ -29,6 +30,7 @@ enum class VertexFeature : std::uint8_t {
 struct FeatureSet {
     std::vector<char> sharp_edge;       ///< one flag an edge of the EdgeTable
     std::vector<VertexFeature> vertex;  ///< one class a mesh vertex
+    /// Number of edges whose flag is set. Linear in the number of edges.
     std::size_t sharp_edge_count() const;
 };
 

@@ -12,12 +12,13 @@
 
 namespace hex {
 
+/// What find_defects() found; all empty for a mesh without defects.
 struct MeshDefects {
     /// Vertices that no hexahedron uses, ascending.
     std::vector<VertexId> unused;
     /// Used vertices at the place of an earlier one: {vertex, the first one there}, ascending.
     std::vector<std::array<VertexId, 2>> duplicates;
-    /// Boundary edges where not exactly two boundary faces meet.
+    /// Boundary edges where not exactly two boundary faces meet: {smaller, larger vertex}, ascending.
     std::vector<std::array<VertexId, 2>> open_edges;
     /// Vertices where hexahedra touch without a common face, ascending.
     std::vector<VertexId> pinched;
@@ -33,7 +34,7 @@ struct MeshDefects {
     bool watertight() const { return open_edges.empty() && cracks.empty(); }
 };
 
-/// `tolerance` is the distance below which two vertices are at the same place, as a share of the diagonal of
+/// `tolerance` is the largest distance of two vertices at the same place, as a share of the diagonal of
 /// the mesh, >= 0. O(n log n).
 MeshDefects find_defects(const HexMesh& mesh, double tolerance = 1e-9, const Context& context = {});
 

@@ -19,20 +19,21 @@ namespace hex {
 /// <= 0 for an inverted element. A corner with an edge of no length counts as 0 (Verdict leaves that
 /// undefined).
 double scaled_jacobian(const std::array<Vec3, 8>& corners);
+/// The same of a cell of a mesh.
 double scaled_jacobian(const HexMesh& mesh, CellId cell);
 
 /// At one corner only: det(e1,e2,e3) / (|e1||e2||e3|).
 double corner_scaled_jacobian(const std::array<Vec3, 8>& corners, int corner);
 
-/// Of every cell, in cell order. The same bits as scaled_jacobian of each.
+/// Of every cell, in cell order. The same bits as scaled_jacobian of each. Throws Error{cancelled}.
 std::vector<double> scaled_jacobians(const HexMesh& mesh, const Context& context = {});
 
 /// What a person wants to know of a mesh.
 struct QualitySummary {
-    std::size_t vertices = 0;  ///< used by a cell
-    std::size_t cells = 0;
-    double min = 0.0;
-    double mean = 0.0;
+    std::size_t vertices = 0;                 ///< used by a cell
+    std::size_t cells = 0;                    ///< hexahedra
+    double min = 0.0;                         ///< smallest scaled Jacobian of a cell
+    double mean = 0.0;                        ///< over the cells, not weighted
     CellId worst;                             ///< the first cell that has the value `min`
     std::size_t inverted = 0;                 ///< cells with a scaled Jacobian <= 0
     std::array<std::size_t, 20> histogram{};  ///< counts in equal bins over [-1, 1]

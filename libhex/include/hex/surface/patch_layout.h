@@ -36,8 +36,8 @@ struct Patch {
 /// The patches of a surface. Patch order is the order of the first triangle of each when scanning triangles
 /// 0, 1, 2, ...
 struct PatchLayout {
-    std::vector<Patch> patches;
-    std::vector<int> patch_of_triangle;
+    std::vector<Patch> patches;          ///< of the whole surface: each triangle is in one
+    std::vector<int> patch_of_triangle;  ///< one index into `patches` a triangle
     /// Vertices around which at least three distinct patches meet, ascending.
     std::vector<int> corners;
     /// Number of distinct patches around each vertex (0 for isolated ones).

@@ -15,16 +15,19 @@ namespace hex {
 /// Points and polygons with part ids. Polygon f has the corners `corners[i]` for i in [`offsets[f]`,
 /// `offsets[f + 1]`), counter-clockwise seen from outside. All corner indices are < points.size().
 struct PolygonSoup {
-    std::vector<Vec3> points;
-    std::vector<std::uint32_t> corners;
-    std::vector<std::size_t> offsets = {0};
+    std::vector<Vec3> points;                ///< positions, in the unit of the file
+    std::vector<std::uint32_t> corners;      ///< indices into `points`, polygon after polygon
+    std::vector<std::size_t> offsets = {0};  ///< where each polygon starts in `corners`, and the end
     /// One part id a polygon; 1 where the format has none.
     std::vector<int> parts;
 
+    /// Number of polygons.
     std::size_t size() const { return offsets.size() - 1; }
+    /// Corners of polygon f, which must exist; valid until a polygon is added.
     std::span<const std::uint32_t> polygon(std::size_t f) const {
         return {corners.data() + offsets[f], offsets[f + 1] - offsets[f]};
     }
+    /// Appends a polygon; its corners are not checked (make_poly_mesh() does that).
     void add_polygon(std::span<const std::uint32_t> polygon, int part = 1);
 };
 
@@ -34,10 +37,10 @@ struct SurfaceRequirements {
 };
 
 /// Polygon mesh of a soup; vertex and face indices are kept.
-/// Throws Error{bad_input} naming the place (0-based vertex and polygon ids) for: no faces, degenerate
-/// polygons (a vertex twice), edges with more than two faces, neighbours oriented against each other, inner
-/// vertices with two faces only, vertices where the surface only touches itself, and boundary edges when
-/// `requirements.closed`.
+/// Throws Error{bad_input} naming the place (0-based vertex and polygon ids) for: no faces, coordinates that
+/// are not finite, degenerate polygons (fewer than three corners, a vertex twice, one that does not exist),
+/// edges with more than two faces, neighbours oriented against each other, inner vertices with two faces
+/// only, vertices where the surface only touches itself, and boundary edges when `requirements.closed`.
 PolyMesh make_poly_mesh(const PolygonSoup& soup, const SurfaceRequirements& requirements = {});
 
 /// Triangles of a polygon mesh by CGAL's constrained hole-free triangulation of each face
@@ -49,8 +52,10 @@ TriangleMesh triangulate(const PolyMesh& mesh);
 /// make_poly_mesh, then triangulate.
 TriangleMesh make_triangle_mesh(const PolygonSoup& soup, const SurfaceRequirements& requirements = {});
 
-/// The triangles back as a soup, with their parts.
+/// The triangles back as a soup, with their parts. Vertex and face indices are kept, isolated vertices
+/// included.
 PolygonSoup to_soup(const TriangleMesh& mesh);
+/// The polygons back as a soup, in the same way.
 PolygonSoup to_soup(const PolyMesh& mesh);
 
 /// The connected component of each triangle, through shared edges, numbered in the order of their first

@@ -20,8 +20,11 @@
 
 namespace hex::hexahedron {
 
+/// Corners, and so vertices, of a hexahedron.
 inline constexpr int corner_count = 8;
+/// Quadrilaterals around it.
 inline constexpr int face_count = 6;
+/// Edges of it.
 inline constexpr int edge_count = 12;
 
 /// Local coordinates of corner c, each 0 or 1.
@@ -67,8 +70,9 @@ constexpr int edge_between(int a, int b) {
     return -1;
 }
 
-/// Bezier points at corners 0..7, and the body points next to them.
+/// Bezier points at corners 0..7 of a tricubic element.
 inline constexpr std::array<int, 8> bezier_corner = {0, 3, 15, 12, 48, 51, 63, 60};
+/// The inner (body) Bezier point next to each corner: one step from it along all three axes.
 inline constexpr std::array<int, 8> bezier_body = {21, 22, 26, 25, 37, 38, 42, 41};
 
 }  // namespace hex::hexahedron
