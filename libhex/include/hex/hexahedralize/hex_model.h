@@ -29,32 +29,38 @@ const char* name_of(Route route);
 
 /// One method of stage improve that was run.
 struct ImproveStep {
-    std::string method;
-    ImproveReport report;
+    std::string method;    ///< its name in the registry
+    ImproveReport report;  ///< what it did
 };
 
 /// Parts are empty until their stage has been. All belong together: the blocks are those of these labels, the
 /// meshes those of these blocks.
 struct HexModel {
-    Route route = Route::labelling;
+    Route route = Route::labelling;  ///< by which blocks and meshes were made
 
     /// As it came in; part = label + 1 once it is labelled.
     TriangleMesh surface;
+    /// Of `surface`; on the route `voxel` the blocks do not need it.
     std::optional<Segmentation> segmentation;
-    /// Of the labels, with the number of the attempt; none if the labels came from elsewhere.
+    /// Of the labels; none if the labels came from elsewhere.
     std::optional<SegmentReport> segment_report;
-    int label_attempt = 0;
+    int label_attempt = 0;  ///< SegmentOptions::attempt that gave the labels of `segment_report`
 
-    /// The surface cut into four-sided patches, and their polycube; not on the route `voxel`.
+    /// The surface cut into four-sided patches (components of equal part id); not on the route `voxel`.
     std::optional<TriangleMesh> patches;
+    /// Of `patches`; not on the route `voxel`.
     std::optional<Polycube> polycube;
+    /// The block structure; on the route `voxel` the cells of the grid.
     std::optional<HexMesh> blocks;
     std::optional<BlocksReport> blocks_report;  ///< on the route `labelling`
     std::optional<VoxelReport> voxel_report;    ///< on the route `voxel`
 
+    /// The blocks cut into hexahedra by stage map; on the route `voxel` the blocks as they are.
     std::optional<HexMesh> mapped;
 
+    /// `mapped` after all of `improve_steps`.
     std::optional<HexMesh> improved;
+    /// The methods that made `improved`, in order; each went on with the mesh of the one before.
     std::vector<ImproveStep> improve_steps;
     /// Of `improved`: largest distance to the surface, both ways, in percent of the surface's diagonal
     /// (surface_distance.h).

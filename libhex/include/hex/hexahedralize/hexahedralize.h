@@ -16,13 +16,16 @@
 
 namespace hex {
 
+/// The stages from a surface to a mesh, in their order.
 enum class HexStage { segment, polycube, map, improve };
 
+/// Number of stages: the length of lists with an entry a stage.
 inline constexpr std::size_t hex_stage_count = 4;
 
 /// "segment", "polycube", "map" or "improve".
 const char* name_of(HexStage stage);
 
+/// Which way is taken, and what the search may decide by itself: by default everything.
 struct HexahedralizeOptions {
     /// How blocks are made: `labelling` or `voxel`; `given` for a HexModel that has patches and blocks.
     Route route = Route::labelling;
@@ -48,14 +51,16 @@ struct HexahedralizeOptions {
 
 /// A mesh that competed.
 struct HexTry {
-    Route route = Route::labelling;
-    std::optional<int> label_attempt;
-    std::size_t blocks = 0;
-    QualitySummary quality;
-    double distance = 0.0;  ///< HexModel::distance
+    Route route = Route::labelling;    ///< by which its blocks were made
+    std::optional<int> label_attempt;  ///< HexModel::label_attempt; none if the labels came from elsewhere
+    std::size_t blocks = 0;            ///< blocks, on the route `voxel` cells, that it was made of
+    QualitySummary quality;            ///< of the improved mesh
+    double distance = 0.0;             ///< HexModel::distance
 };
 
+/// A mesh, how it was come by, and what else was tried.
 struct HexahedralizeResult {
+    /// What there was at the start, and what the stages up to the last one made; of several meshes the best.
     HexModel model;
     /// Why the route `labelling` was left, or why it was kept although it was not acceptable; may be empty.
     std::string route_reason;

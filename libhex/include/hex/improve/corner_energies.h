@@ -12,6 +12,7 @@
 
 namespace hex {
 
+/// Positions of the corners of a hexahedron, or a vector for each of them, in the order of hexahedron.h.
 using HexCorners = std::array<Vec3, 8>;
 
 /// Foldover-free energy (Garanzha, Kaporin, Kudryavtseva, Protais, Ray, Sokolov: Foldover-free maps in 50
@@ -35,6 +36,8 @@ struct FoldoverEnergy {
 /// the worst q from below raises the minimum (method of centres; Huard 1967); infinite unless all q > floor.
 struct QualityBarrier {
     double floor = -1.0;  ///< < 1
+    /// Value; the gradient for each corner's position is added to `gradient` unless that is null or the value
+    /// is infinite.
     double evaluate(const HexCorners& corners, HexCorners* gradient) const;
 };
 
@@ -44,6 +47,8 @@ struct QualityBarrier {
 struct QualityMean {
     double floor = -1.0;           ///< < 1
     double barrier_weight = 0.01;  ///< >= 0
+    /// Value, infinite unless all q > floor; the gradient for each corner's position is added to `gradient`
+    /// unless that is null or the value is infinite.
     double evaluate(const HexCorners& corners, HexCorners* gradient) const;
 };
 
@@ -53,6 +58,7 @@ struct QualityMean {
 struct ShortEdgeEnergy {
     double share = 0.2;   ///< > 0
     double weight = 1.0;  ///< >= 0
+    /// Value; the gradient for each corner's position is added to `gradient` unless that is null.
     /// \param reference lengths of the reference box along u, v, w, > 0
     double evaluate(const HexCorners& corners, const Vec3& reference, HexCorners* gradient) const;
 };

@@ -20,16 +20,20 @@
 
 namespace hex {
 
+/// The method, how much it may do, and what of the boundary it has to keep.
 struct ImproveOptions {
     /// Name of the method in the registry: `laplace`, `pillow`, `smooth`, `optimize` (paper, section on
-    /// quality), `untangle`, `auto`, or a plug-in's.
+    /// quality), `untangle`, `auto`, `snap`, or a plug-in's.
     std::string method = "auto";
-    /// Layers (pillow) or sweeps (the others), >= 0. -1: the method's own default, 1 layer or 50 sweeps.
+    /// Layers (pillow) or sweeps (laplace, smooth, optimize), >= 0. -1: the method's own default, 1 layer or
+    /// 50 sweeps. snap: 0 for no layer, anything else for one. untangle and auto have no use for it.
     int count = -1;
     /// In (0, 1]. laplace, smooth: share of the computed move that is made. optimize: first step of the line
     /// search, as a share of the mean length of the edges at the vertex. 0: the method's own default, 1 for
-    /// laplace, 0.01 (paper) for the others. pillow has no use for it.
+    /// laplace, 0.01 (paper) for optimize and smooth. The other methods have no use for it.
     double step = 0.0;
+    /// smooth, optimize: which edges of the boundary are sharp. Vertices with two sharp edges move along
+    /// these only, those with one, three or more not at all.
     FeatureSource features = FeatureSource::none;
     /// For FeatureSource::angle: cosine below which an edge between two boundary quads is sharp, in [-1, 1].
     double feature_cosine = 0.8;
@@ -41,6 +45,7 @@ struct ImproveOptions {
     /// untangle, auto: the same; none: they move on the boundary of the input, whose sharp curves are found
     /// by `feature_cosine`, or given by FeatureSource::list (FeatureSource::none and angle make no
     /// difference).
+    /// snap: what the boundary is pulled onto; Error{usage} without one.
     const TriangleMesh* surface = nullptr;
     /// untangle, auto: how far boundary vertices may leave the surface, in percent of its diagonal, >= 0. It
     /// is used only where it helps, and no more than 0.1 of it at vertices that are not on a sharp curve
@@ -70,12 +75,14 @@ struct ImproveOptions {
 
 /// State of the mesh after a sweep, a layer or a step.
 struct ImproveRecord {
-    int sweep = 0;
+    int sweep = 0;  ///< number of the sweep, layer or step, from 1
+    /// untangle, auto: what kind of step it was: "attach", "untangle", "barrier", "ascent", "mean", "back".
     std::string step;
+    /// Vertices that were moved; pillow: that were made; untangle, auto and the pulls of snap: 0.
     std::size_t moved = 0;
-    double min = 0.0;
-    double mean = 0.0;
-    std::size_t inverted = 0;
+    double min = 0.0;          ///< smallest scaled Jacobian
+    double mean = 0.0;         ///< of the scaled Jacobians of all elements
+    std::size_t inverted = 0;  ///< elements with a scaled Jacobian <= 0
     /// untangle, auto: largest distance of a boundary vertex to its part of the surface, in percent of the
     /// diagonal.
     double distance = 0.0;
@@ -90,15 +97,23 @@ struct ImproveFidelity {
     double features = 0.0;
 };
 
+/// What a method did to a mesh.
 struct ImproveReport {
-    std::string method;
-    QualitySummary before;
-    QualitySummary after;
+    std::string method;     ///< that was run
+    QualitySummary before;  ///< of the input
+    QualitySummary after;   ///< of the result
+    /// Edges of the mesh that counted as sharp (smooth, optimize), or stood for sharp edges of the surface
+    /// (untangle, auto); 0 of other methods.
     std::size_t sharp_edges = 0;
-    std::vector<ImproveRecord> history;
-    /// Of `untangle` and `auto` with a surface: of the input with its boundary vertices on the surface, of
-    /// the result, and what was allowed.
+    std::vector<ImproveRecord> history;  ///< an entry a sweep, layer or step; the input has none
+    /// Of `untangle` and `auto` with a surface: the input with its boundary vertices on the surface. None
+    /// where the input itself is returned.
     std::optional<ImproveFidelity> fidelity_before, fidelity_after, fidelity_limit;
+    /// \var fidelity_after
+    /// The same of the result.
+    /// \var fidelity_limit
+    /// What was allowed; the warning `fidelity-lost` tells when the result is beyond it.
+
     /// untangle, auto: the sharp edges that were used, as pairs of vertices of the surface (of the input
     /// without one), ascending.
     std::vector<std::array<std::int64_t, 2>> feature_edges;
@@ -106,12 +121,17 @@ struct ImproveReport {
     double work = 0.0;
     /// Seconds that each kind of step took, in order of their first use (untangle, auto).
     std::vector<std::pair<std::string, double>> seconds;
+    /// Notes `surface-distance`, `fidelity`, `layer-added`, `input-kept`; warnings `fidelity-lost`,
+    /// `off-surface` (vertices that could not be brought onto the surface), `pillow-inverted` (cells of the
+    /// layer).
     Diagnostics diagnostics;
 };
 
+/// An improved mesh, and what was done to it.
 struct ImproveResult {
+    /// The cells of the input in their order, with their part ids; after them those of layers around it.
     HexMesh mesh;
-    ImproveReport report;
+    ImproveReport report;  ///< what was done
 };
 
 /// A method of the stage. `laplace`, `smooth` and `optimize` keep a move of a vertex only if the smallest
@@ -124,13 +144,18 @@ struct ImproveResult {
 class Improver {
   public:
     virtual ~Improver() = default;
+    /// Makes the mesh better. The options are in range; `before` and `after` of the report are the stage's to
+    /// fill. A mesh without hexahedra, or with a vertex that is not finite, makes the stage throw
+    /// Error{no_result}.
     virtual ImproveResult improve(const HexMesh& mesh, const ImproveOptions& options,
                                   const Context& context) const = 0;
 };
 
+/// The methods of the stage by name, those of plug-ins included.
 Registry<Improver>& improvers();
 
-/// Runs `options.method` and fills `before` and `after`. Throws Error{usage} for options out of range.
+/// Runs `options.method` and fills `before` and `after`. Throws Error{usage} for options out of range or
+/// an unknown method, Error{bad_input} for a mesh without hexahedra or `feature_vertices` out of range.
 ImproveResult improve(const HexMesh& mesh, const ImproveOptions& options = {}, const Context& context = {});
 
 }  // namespace hex

@@ -8,6 +8,7 @@
 
 namespace hex::io {
 
+/// How finely the faces of a CAD model become triangles, and which of its edges are sharp.
 struct CadOptions {
     /// How far a triangle may leave its face, in the units of the model (millimetres for STEP and IGES); 0
     /// takes 0.0005 of the diagonal.

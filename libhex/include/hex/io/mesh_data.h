@@ -16,21 +16,24 @@ namespace hex::io {
 
 /// Points (in `surface.points`) with polygons and hexahedra on them.
 struct MeshData {
-    PolygonSoup surface;
-    std::vector<HexCell> hexahedra;
+    PolygonSoup surface;             ///< all points of the file, and its polygons; there may be none
+    std::vector<HexCell> hexahedra;  ///< on the same points, corners in VTK's order; there may be none
     /// One part id a hexahedron, or empty where the format has none.
     std::vector<int> hexahedron_parts;
     /// Of the part ids, where the format has names.
     PartNames part_names;
-    Diagnostics diagnostics;
+    Diagnostics diagnostics;  ///< what the reader noticed, without the file's name
 
+    /// The points of polygons and hexahedra alike.
     std::vector<Vec3>& points() { return surface.points; }
 
+    /// Appends a polygon: 0-based points, counter-clockwise seen from outside. Nothing is checked here.
     void add_polygon(std::span<const std::uint32_t> corners, int part) {
         surface.corners.insert(surface.corners.end(), corners.begin(), corners.end());
         surface.offsets.push_back(surface.corners.size());
         surface.parts.push_back(part);
     }
+    /// Appends a warning; the arguments are the fields of Diagnostic (diagnostics.h).
     void warn(std::string code, std::string message, std::string entity = {},
               std::vector<std::int64_t> ids = {}) {
         diagnostics.push_back(

@@ -16,13 +16,14 @@ namespace hex::io {
 
 /// A file format: what it is called, and what we read from it and write to it.
 struct FormatInfo {
-    std::string_view name;
+    std::string_view name;  ///< for messages, such as "VTK legacy"
     /// Lower case with the dot; the first is the usual one.
     std::vector<std::string_view> extensions;
+    /// read_surface takes files of this format; those of CAD only in a build with Open CASCADE.
     bool reads_surfaces = false;
-    bool writes_surfaces = false;
-    bool reads_hexahedra = false;
-    bool writes_hexahedra = false;
+    bool writes_surfaces = false;   ///< write_surface makes such files
+    bool reads_hexahedra = false;   ///< read_hex_mesh takes such files
+    bool writes_hexahedra = false;  ///< write_hex_mesh makes such files
     /// Part ids survive writing and reading.
     bool part_ids = false;
     /// And so do their names.

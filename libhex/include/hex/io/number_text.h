@@ -17,6 +17,7 @@ inline void append_number(std::string& text, double value) {
     text.append(buffer, end);
 }
 
+/// Appends all digits of an integer, with a '-' before a negative one.
 template <std::integral Integer>
 void append_number(std::string& text, Integer value) {
     char buffer[24];
@@ -24,8 +25,9 @@ void append_number(std::string& text, Integer value) {
 }
 
 /// The whole of `text` (a leading '+' is allowed, no blanks) as a number; none when it is not one, does not
-/// fit, or, for doubles, is not finite. Numbers too small for a double become 0.
+/// fit, or is not finite. Numbers too small for a double become 0.
 std::optional<double> parse_double(std::string_view text);
+/// The same for decimal integers: "1.0" and "1e3" are none.
 std::optional<long long> parse_integer(std::string_view text);
 
 }  // namespace hex::io

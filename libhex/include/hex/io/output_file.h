@@ -10,9 +10,12 @@ namespace hex::io {
 
 /// Writes beside the target and renames on `commit`. Destroyed without a commit, it leaves nothing behind and
 /// an old file of that name as it was. A target that exists and is no regular file (/dev/null, a pipe) is
-/// written directly. Every failure throws Error{output} with the path.
+/// written directly, and so is what /dev/stdout, /dev/stderr and /dev/fd/N stand for. Every failure throws
+/// Error{output} with the path.
 class OutputFile {
   public:
+    /// Makes the file beside the target at once, so that a place that cannot be written is known before the
+    /// work. Where `path` is a symbolic link, the target is the file that it points to.
     explicit OutputFile(std::filesystem::path path);
     ~OutputFile();
     OutputFile(const OutputFile&) = delete;
@@ -22,6 +25,7 @@ class OutputFile {
     void write(std::string_view bytes);
     /// A buffer to append to with append_number; call `flush_if_large` now and then.
     std::string& buffer() { return buffer_; }
+    /// Writes the buffer out and empties it once it holds more than 1 MiB.
     void flush_if_large() {
         if (buffer_.size() > large) flush();
     }

@@ -15,9 +15,10 @@ namespace hex::io {
 
 /// A surface as read, with what the reader noticed (unknown keywords, skipped elements, ...).
 struct SurfaceFile {
+    /// Numbered in the order of the file unless docs/formats.md says otherwise.
     PolygonSoup soup;
-    PartNames part_names;
-    Diagnostics diagnostics;
+    PartNames part_names;     ///< of the part ids of `soup`, where the format has names
+    Diagnostics diagnostics;  ///< each message begins with the file's name, and its line where there is one
     /// Sharp edges that the file itself knows of, as pairs of points: those of CAD models (cad_file.h).
     std::vector<std::array<std::uint32_t, 2>> sharp_edges = {};
 };
@@ -31,7 +32,7 @@ SurfaceFile read_surface(const std::filesystem::path& path);
 
 /// Writes the format of the extension; throws Error{unsupported} for one that cannot carry a surface,
 /// Error{output} when the file cannot be written. Doubles round-trip exactly in every text format.
-/// `part_names` are used by formats that have them (.inp, .msh, .msh2).
+/// `part_names` are used by formats that have them (.k, .key, .inp, .msh, .msh2).
 void write_surface(const std::filesystem::path& path, const PolygonSoup& soup,
                    const PartNames& part_names = {});
 

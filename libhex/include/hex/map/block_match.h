@@ -12,6 +12,7 @@
 
 namespace hex {
 
+/// What of the surface belongs to each vertex, edge and boundary quad of the blocks.
 struct BlockMatch {
     /// Surface vertex of each boundary vertex of the blocks; -1 for the others.
     std::vector<int> surface_vertex;

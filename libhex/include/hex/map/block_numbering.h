@@ -19,18 +19,23 @@ class BlockNumbering {
     /// (0,1) at the four vertices of `half_face`, in the order of HexMesh::face_vertices.
     struct Face {
         HalfFaceId half_face;  ///< the smaller of the two half-faces
-        int segments_s = 0;
-        int segments_t = 0;
+        int segments_s = 0;    ///< pieces from (0,0) to (1,0)
+        int segments_t = 0;    ///< pieces from (0,0) to (0,1)
     };
 
     /// `edges` must be edge_table(blocks), and `segments` (>= 1, one an edge) equal on opposite edges of
     /// every block face; throws Error{bad_input} naming the block otherwise, and Error{unsupported} when the
-    /// mesh would have more cells or nodes than 32-bit ids can name.
+    /// mesh would have more cells or nodes than 32-bit ids can name. `blocks` and `edges` must outlive the
+    /// numbering.
     BlockNumbering(const HexMesh& blocks, const EdgeTable& edges, std::vector<int> segments);
 
+    /// Vertices of the subdivided structure.
     std::size_t node_count() const { return node_count_; }
+    /// Hexahedra of the subdivided structure: the products of the pieces along each block, summed.
     std::size_t cell_count() const { return first_cell_.back(); }
+    /// All faces, boundary or not, in the order of their smaller half-faces.
     const std::vector<Face>& faces() const { return faces_; }
+    /// Pieces of an edge of the EdgeTable.
     int segments(EdgeId e) const { return segments_[e.index()]; }
     /// Pieces along the axes u, v, w of a block.
     std::array<int, 3> segments(CellId block) const;

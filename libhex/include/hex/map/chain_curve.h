@@ -17,6 +17,7 @@ class ChainCurve {
     ChainCurve() = default;
     /// At least two points.
     explicit ChainCurve(std::vector<Vec3> points);
+    /// Through the vertices of a chain of at least two.
     ChainCurve(const TriangleMesh& mesh, const Chain& chain);
 
     /// The point at t in [0, 1] (clamped); lies on an edge of the chain, and is exactly its first or last
@@ -25,6 +26,7 @@ class ChainCurve {
 
     /// Length of the polyline.
     double length() const { return length_; }
+    /// The vertices of the polyline, as given.
     const std::vector<Vec3>& points() const { return points_; }
     /// Parameters of the points: 0 first, 1 last, not decreasing.
     const std::vector<double>& parameters() const { return parameters_; }

@@ -10,6 +10,7 @@
 
 namespace hex {
 
+/// The numbers of pieces that were chosen.
 struct SheetDivisions {
     std::vector<int> pieces;   ///< one a sheet, at least 1
     double edge_length = 0.0;  ///< what they were chosen for

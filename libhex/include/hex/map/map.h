@@ -23,8 +23,9 @@ enum class Interior {
                   ///< Jacobian less than 0.3, its nodes move less
 };
 
-/// "linear", "transfinite" or "harmonic", and back; Error{usage} for another name.
+/// "linear", "transfinite" or "harmonic".
 std::string name_of(Interior interior);
+/// The inverse of name_of; throws Error{usage} for another name.
 Interior interior_named(const std::string& name);
 
 /// What a method keeps for the next call with the same surface and blocks, such as the maps of the patches.
@@ -33,6 +34,7 @@ class MapMemory {
     virtual ~MapMemory() = default;
 };
 
+/// The method, how many hexahedra there shall be, and how blocks are filled.
 struct MapOptions {
     /// Name of the method in the registry: `patchwise` (harmonic patches, blocks filled as `interior` says)
     /// or a plug-in's.
@@ -45,6 +47,7 @@ struct MapOptions {
     double edge_length = 0.0;
     /// When positive: the edge length is chosen so that there are about as many hexahedra. Not both.
     std::size_t target_hexes = 0;
+    /// How the insides of block faces and blocks are filled.
     Interior interior = Interior::harmonic;
     /// A block corner farther than this from its surface corner, in units of the bounding box diagonal, is
     /// warned about.
@@ -67,11 +70,12 @@ struct PatchMapRecord {
     std::size_t split_edges = 0;  ///< edges cut because both ends lie on one side (patch_map.h)
 };
 
+/// How a mesh was mapped. All but `method` is up to the method; the built-in one fills everything.
 struct MapReport {
-    std::string method;
-    std::size_t patches = 0;
-    std::size_t blocks = 0;
-    /// Distance between a block corner and its surface corner, in units of the diagonal.
+    std::string method;       ///< that was run
+    std::size_t patches = 0;  ///< of the surface, one a boundary quad of the blocks
+    std::size_t blocks = 0;   ///< of the block structure
+    /// Largest distance between a block corner and its surface corner, in units of the diagonal.
     double largest_snap = 0.0;
     /// Pieces into which the edges of each sheet of the blocks are cut (block_sheets.h).
     std::vector<int> divisions;
@@ -79,23 +83,28 @@ struct MapReport {
     double edge_length = 0.0;
     /// Interior::harmonic: nodes that moved less, or not, because an element would have got worse.
     std::size_t held_back_nodes = 0;
-    std::vector<PatchMapRecord> patch_maps;
+    std::vector<PatchMapRecord> patch_maps;  ///< one a patch, in the order of find_patches
     /// Warnings `far-corner` (block vertices) and `flipped-patch` (patches).
     Diagnostics diagnostics;
 };
 
+/// A hexahedral mesh, and how it was mapped.
 struct MapResult {
-    HexMesh mesh;  ///< part of a cell = index of its block + 1; no unused vertices
-    MapReport report;
+    HexMesh mesh;      ///< part of a cell = index of its block + 1; no unused vertices
+    MapReport report;  ///< how it was mapped
 };
 
+/// Interface of a mapping method.
 class Mapper {
   public:
     virtual ~Mapper() = default;
+    /// Makes the mesh. The options are in range; whether surface and blocks fit is the method's to check. A
+    /// mesh that is not as MapResult says makes the stage throw Error{no_result}.
     virtual MapResult map(const TriangleMesh& surface, const HexMesh& blocks, const MapOptions& options,
                           const Context& context) const = 0;
 };
 
+/// The methods of the stage by name, those of plug-ins included.
 Registry<Mapper>& mappers();
 
 /// Runs `options.method`. The result of the built-in method `patchwise` is conforming by construction, and

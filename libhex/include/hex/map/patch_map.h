@@ -30,10 +30,10 @@ std::string name_of(PatchWeights weights);
 /// Corners c0..c3 of the patch lie at (0,0), (1,0), (1,1), (0,1), so the orientation is kept: a triangle is
 /// counter-clockwise in (u, v) when it is so on the surface seen from outside.
 struct PatchParameterization {
-    std::vector<Vec3> points;                   ///< vertices of the patch, on the surface
-    std::vector<Vec2> uv;                       ///< their images in the unit square
-    std::vector<std::array<int, 3>> triangles;  ///< of `points`
-    PatchWeights weights = PatchWeights::discrete_conformal;
+    std::vector<Vec3> points;                                 ///< vertices of the patch, on the surface
+    std::vector<Vec2> uv;                                     ///< their images in the unit square
+    std::vector<std::array<int, 3>> triangles;                ///< of `points`
+    PatchWeights weights = PatchWeights::discrete_conformal;  ///< that gave `uv`
     std::size_t flipped = 0;      ///< triangles not counter-clockwise in (u, v), by an exact predicate
     std::size_t split_edges = 0;  ///< edges cut in two; see parameterize
 };
@@ -54,17 +54,21 @@ PatchParameterization parameterize(const TriangleMesh& surface, const Patch& pat
 /// The inverse of a parameterization: from the unit square to the surface.
 class PatchMap {
   public:
+    /// Flattens the patch; throws as parameterize does. Keeps nothing of `surface` but copies.
     PatchMap(const TriangleMesh& surface, const Patch& patch);
     ~PatchMap();
+    /// The map that is moved from can only be destroyed or assigned to.
     PatchMap(PatchMap&&) noexcept;
+    /// As the constructor.
     PatchMap& operator=(PatchMap&&) noexcept;
 
     /// The point at (u, v), both in [0, 1] (clamped). On the border of the square it lies on the chain at
     /// that chord length; inside, in the flattened triangle that contains (u, v): of all triangles near, the
     /// one in which the smallest barycentric coordinate is largest, so that a tie on an edge does not matter.
-    /// Logarithmic in the number of triangles.
+    /// Logarithmic in the number of triangles. Throws Error{no_result} when no flattened triangle has area.
     Vec3 point(double u, double v) const;
 
+    /// The flattened patch that this map inverts.
     const PatchParameterization& parameterization() const { return flat_; }
     /// Chain from corner k to corner k + 1.
     const ChainCurve& side(int k) const { return sides_[static_cast<std::size_t>(k)]; }

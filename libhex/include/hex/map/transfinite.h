@@ -18,11 +18,14 @@ namespace hex {
 /// (nu+1) x (nv+1) points over (i/nu, j/nv), i fastest. nu, nv >= 1.
 class FaceGrid {
   public:
+    /// All points at the origin.
     FaceGrid(int nu, int nv) : nu_(nu), nv_(nv), points_(size(nu) * size(nv), Vec3::Zero()) {}
 
-    int nu() const { return nu_; }
-    int nv() const { return nv_; }
+    int nu() const { return nu_; }  ///< pieces along u
+    int nv() const { return nv_; }  ///< pieces along v
+    /// The point at (i/nu, j/nv), 0 <= i <= nu, 0 <= j <= nv; not checked.
     Vec3& operator()(int i, int j) { return points_[index(i, j)]; }
+    /// The same, to read.
     const Vec3& operator()(int i, int j) const { return points_[index(i, j)]; }
 
   private:
@@ -39,13 +42,16 @@ class FaceGrid {
 /// (nu+1) x (nv+1) x (nw+1) points over (i/nu, j/nv, k/nw), i fastest, then j. nu, nv, nw >= 1.
 class BlockGrid {
   public:
+    /// All points at the origin.
     BlockGrid(int nu, int nv, int nw)
         : nu_(nu), nv_(nv), nw_(nw), points_(size(nu) * size(nv) * size(nw), Vec3::Zero()) {}
 
-    int nu() const { return nu_; }
-    int nv() const { return nv_; }
-    int nw() const { return nw_; }
+    int nu() const { return nu_; }  ///< pieces along u
+    int nv() const { return nv_; }  ///< pieces along v
+    int nw() const { return nw_; }  ///< pieces along w
+    /// The point at (i/nu, j/nv, k/nw), 0 <= i <= nu and so on; not checked.
     Vec3& operator()(int i, int j, int k) { return points_[index(i, j, k)]; }
+    /// The same, to read.
     const Vec3& operator()(int i, int j, int k) const { return points_[index(i, j, k)]; }
 
   private:

@@ -13,44 +13,48 @@
 
 namespace hex {
 
+/// How coarse the integer polycube is.
 struct BlocksOptions {
     /// Length in space of one unit of the integer polycube, > 0; charts closer than about half of it may come
     /// to lie in one plane. 0: the edge of a cube with 1/1500 of the volume of all bodies.
     double unit = 0.0;
 };
 
+/// How blocks came about. Numbers are of all bodies together unless their line says otherwise, and 0
+/// where an error came first.
 struct BlocksReport {
     std::size_t bodies = 0;         ///< outer shells, each with its voids, which have a polycube each
     std::size_t turned_shells = 0;  ///< outer shells oriented inwards and voids oriented outwards
-    std::size_t charts = 0;
-    std::size_t sides = 0;         ///< edges of the polycube
-    std::size_t corners = 0;       ///< of the polycube
-    std::size_t orders = 0;        ///< order constraints between charts that were kept
-    std::size_t turned_sides = 0;  ///< sides whose direction had to differ from that in space
-    std::size_t rounds = 0;        ///< integer programs solved until no charts overlapped
+    std::size_t charts = 0;         ///< components of equal label
+    std::size_t sides = 0;          ///< edges of the polycube
+    std::size_t corners = 0;        ///< of the polycube
+    std::size_t orders = 0;         ///< order constraints between charts that were kept
+    std::size_t turned_sides = 0;   ///< sides whose direction had to differ from that in space
+    std::size_t rounds = 0;         ///< integer programs solved until no charts overlapped; most of any body
     std::array<std::size_t, 3> planes = {0, 0, 0};  ///< of charts, along x, y, z, of all bodies
     std::size_t cells = 0;                          ///< between those planes, inside
-    std::size_t blocks = 0;
-    std::size_t patches = 0;
-    std::size_t cut_alone = 0;  ///< block lines that needed a map of their own (chart_cutter.h)
-    std::size_t slides = 0;     ///< moves of block vertices on the surface to mend inverted blocks
-    double unit = 0.0;
+    std::size_t blocks = 0;            ///< hexahedra of the block structures of bodies without an error
+    std::size_t patches = 0;           ///< four-sided ones, one a boundary quad of these blocks
+    std::size_t cut_alone = 0;         ///< block lines that needed a map of their own (chart_cutter.h)
+    std::size_t slides = 0;            ///< moves of block vertices on the surface to mend inverted blocks
+    double unit = 0.0;                 ///< length of one unit of the integer polycubes that was used
     double min_scaled_jacobian = 0.0;  ///< of the blocks, at their corners
     std::size_t inverted_corners = 0;  ///< of the blocks, determinant not above zero
-    /// Errors leave `patches` and `blocks` empty; entity "chart" = component of equal label, in the order of
-    /// first triangles: `chart-without-corners`, `opposite-labels-adjacent`, `side-without-end`,
+    /// Errors leave the result's `patches` and `blocks` empty; entity "chart" = component of equal label, in
+    /// the order of first triangles: `chart-without-corners`, `opposite-labels-adjacent`, `side-without-end`,
     /// `chart-touches-itself`; `infeasible-orders`, the charts of a cycle in which each would have to lie
     /// below the next; `charts-overlap`, charts that cannot both lie where they have to. Warning
     /// `inverted-block`: blocks.
     Diagnostics violations;
 };
 
+/// Blocks and patches that belong together.
 struct BlocksResult {
     /// The surface, with triangles split along block lines; part = patch + 1.
     TriangleMesh patches;
     /// One boundary quad a patch, on the patch's four corners, which are vertices of `patches`.
     HexMesh blocks;
-    BlocksReport report;
+    BlocksReport report;  ///< of both; its violations tell when there are none
 };
 
 /// Makes the blocks of a labelled closed surface. Each body, an outer shell with the voids right inside it,

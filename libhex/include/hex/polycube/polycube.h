@@ -16,7 +16,7 @@ namespace hex {
 
 /// The polycube's surface. All indices are vertices of the triangle mesh.
 struct Polycube {
-    PatchLayout layout;
+    PatchLayout layout;               ///< the patches themselves
     std::vector<int> corners;         ///< ascending
     std::vector<Vec3> corner_points;  ///< of `corners`
     std::vector<std::array<int, 4>>
@@ -26,17 +26,19 @@ struct Polycube {
     std::vector<std::array<int, 2>> edges;
 };
 
+/// By which method the patches are found.
 struct PolycubeOptions {
     /// Name of the method in the registry: `patches` (patches are the components of equal part id) or a
     /// plug-in's.
     std::string method = "patches";
 };
 
+/// Counts of a polycube, and what is wrong with it.
 struct PolycubeReport {
-    std::string method;
-    std::size_t patches = 0;
-    std::size_t corners = 0;
-    std::size_t invalid_patches = 0;
+    std::string method;               ///< that was run
+    std::size_t patches = 0;          ///< all of them
+    std::size_t corners = 0;          ///< vertices that are corners of the polycube
+    std::size_t invalid_patches = 0;  ///< patches that are not four-sided
     /// Severity error, entity "patch", vertex ids in the message: what diagnose_layout (patch_layout.h)
     /// finds, and forbidden neighbourhoods: `opposite-labels-adjacent` (asked only when the part ids are
     /// labels: all in 1..6, and every patch faces the way of its label), `patches-share-all-corners` (two
@@ -45,27 +47,32 @@ struct PolycubeReport {
     Diagnostics violations;
 };
 
+/// A polycube, and what there is to say of it.
 struct PolycubeResult {
-    Polycube polycube;
-    PolycubeReport report;
+    Polycube polycube;      ///< may have quads of -1 when the report has violations
+    PolycubeReport report;  ///< of it
 };
 
+/// Interface of a polycube method.
 class PolycubeBuilder {
   public:
     virtual ~PolycubeBuilder() = default;
+    /// Fills `polycube` and `report.violations`; the stage adds the rest of the report. Without an error
+    /// among the violations, a polycube whose lists do not fit makes the stage throw Error{no_result}.
     virtual PolycubeResult build(const TriangleMesh& mesh, const PolycubeOptions& options,
                                  const Context& context) const = 0;
 };
 
+/// The methods of the stage by name, those of plug-ins included.
 Registry<PolycubeBuilder>& polycube_builders();
 
 /// Runs `options.method`. Does not throw on an invalid layout: `report.violations` tells, and the caller
-/// decides.
+/// decides. Throws Error{usage} for an unknown method, Error{bad_input} for a surface without triangles.
 PolycubeResult polycube(const TriangleMesh& mesh, const PolycubeOptions& options = {},
                         const Context& context = {});
 
 /// The polycube as a quad surface: the corners renumbered in ascending order, one quad a patch, part = patch
-/// index + 1.
+/// index + 1. Throws Error{no_result} when a patch is not four-sided.
 PolygonSoup polycube_surface(const Polycube& polycube);
 
 }  // namespace hex

@@ -13,7 +13,7 @@ namespace hex {
 
 /// A connected component, through shared edges, of triangles of equal label.
 struct LabelChart {
-    int label = 0;
+    int label = 0;                 ///< 0..5 of all its triangles
     std::vector<int> triangles;    ///< ascending
     std::vector<int> boundaries;   ///< indices into LabelCharts::boundaries
     int euler_characteristic = 0;  ///< V - E + F; 1 for a disk
@@ -29,14 +29,17 @@ struct LabelBoundary {
 /// A vertex where at least three edges between different charts meet. (`find_patches` calls a corner what
 /// at least three different patches share; the two differ only where a chart touches itself.)
 struct LabelCorner {
-    int vertex = 0;
+    int vertex = 0;           ///< of the mesh
     int valence = 0;          ///< edges between different charts that end here
     std::vector<int> charts;  ///< the different ones around the vertex, ascending
 };
 
+/// The charts of a labelling. Charts and boundaries are known by their index in these lists, triangles and
+/// vertices by that in the mesh.
 struct LabelCharts {
-    std::vector<LabelChart> charts;  ///< in the order of their first triangles
-    std::vector<int> chart_of_triangle;
+    std::vector<LabelChart> charts;      ///< in the order of their first triangles
+    std::vector<int> chart_of_triangle;  ///< one a triangle
+    /// First those that end in corners, corner after corner; then the closed ones without a corner.
     std::vector<LabelBoundary> boundaries;
     std::vector<LabelCorner> corners;  ///< by ascending vertex
 };

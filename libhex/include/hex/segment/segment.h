@@ -18,7 +18,7 @@ namespace hex {
 
 /// Labels 0..5 = +X -X +Y -Y +Z -Z, one a triangle.
 struct Segmentation {
-    std::vector<int> labels;
+    std::vector<int> labels;  ///< 0..5, in the order of the triangles
 };
 
 /// "+X", "-X", ... of a label.
@@ -36,6 +36,7 @@ struct ManualLabel {
     std::string place = {};     ///< where it was set (file:line), for messages; may be empty
 };
 
+/// The method, its parameters, and the labels that a person insists on.
 struct SegmentOptions {
     /// Name of the method in the registry: `auto` (a graph cut, repaired until a polycube can have these
     /// labels), `hbecvt` (CVT, then harmonic boundary-enhanced CVT), `cvt`, or a plug-in's.
@@ -75,10 +76,11 @@ struct RepairRecord {
     double cost = 0.0;
 };
 
+/// What a segmentation gave, and how it came about.
 struct SegmentReport {
-    std::string method;
-    std::array<std::size_t, 6> label_counts{};
-    std::vector<SweepRecord> sweeps;
+    std::string method;                         ///< that was run; "from-patches" by segment_from_patches
+    std::array<std::size_t, 6> label_counts{};  ///< triangles of each label
+    std::vector<SweepRecord> sweeps;            ///< of methods that iterate, in order
     /// Unit generators of the six labels after the last sweep; the axes for methods that have none.
     std::array<Vec3, 6> generators = {label_axis(0), label_axis(1), label_axis(2),
                                       label_axis(3), label_axis(4), label_axis(5)};
@@ -92,12 +94,13 @@ struct SegmentReport {
     Diagnostics violations;
 };
 
+/// Labels, and what there is to say of them.
 struct SegmentResult {
-    Segmentation segmentation;
+    Segmentation segmentation;  ///< manual labels included
     /// The labels are directions of the part after this rotation; not the identity only with `align`. Its
     /// transpose undoes it.
     Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-    SegmentReport report;
+    SegmentReport report;  ///< of these labels
     /// What the same with the next SegmentOptions::attempt gives, where that came out, too; else null.
     std::shared_ptr<SegmentResult> next_attempt;
 };
@@ -107,10 +110,13 @@ struct SegmentResult {
 class Segmenter {
   public:
     virtual ~Segmenter() = default;
+    /// Labels every triangle. The options are in range; `options.manual` is the stage's to apply. A labelling
+    /// that is not one label 0..5 a triangle makes the stage throw Error{no_result}.
     virtual SegmentResult segment(const TriangleMesh& mesh, const SegmentOptions& options,
                                   const Context& context) const = 0;
 };
 
+/// The methods of the stage by name, those of plug-ins included.
 Registry<Segmenter>& segmenters();
 
 /// The mesh with all its points turned.
@@ -130,7 +136,7 @@ SegmentResult segment_from_patches(const TriangleMesh& mesh);
 
 /// What complete_patches adds.
 struct CompletedPatches {
-    TriangleMesh mesh;
+    TriangleMesh mesh;          ///< the same triangles, each with a part id above 0
     std::size_t triangles = 0;  ///< that had no patch
     std::vector<int> parts;     ///< the new patches, ascending
 };
