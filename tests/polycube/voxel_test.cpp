@@ -107,6 +107,20 @@ TEST(Voxel, BodiesThatMeetAreMeshedEachByItself) {
     EXPECT_NEAR(volume(result.cells), 2.0 * 4.0 / 3.0 * std::numbers::pi, 0.4);
 }
 
+/// Neither the first nor the last of three, and less than the others together.
+TEST(Voxel, TheGridReportedIsThatOfTheBodyWithTheMostCells) {
+    const auto box = [](double x, double y) { return hex::test::box_surface(x, y, 1.0); };
+    PolygonSoup soup = box(4.0, 2.0);
+    hex::test::append(soup, box(3.0, 2.0), 1.0, Vec3(0, 10, 0));
+    hex::test::append(soup, box(5.0, 2.0), 1.0, Vec3(0, 20, 0));
+    hex::test::append(soup, box(2.0, 2.0), 1.0, Vec3(0, 30, 0));
+    hex::VoxelOptions options;
+    options.cell_size = 0.5;
+    const auto report = hex::voxel_blocks(hex::make_triangle_mesh(soup), options).report;
+    EXPECT_EQ(report.bodies, 4U);
+    EXPECT_EQ(report.grid, (std::array<int, 3>{10, 4, 2}));
+}
+
 /// However it is turned, a thin plate is one piece without holes, and a thin gap stays open.
 TEST(Voxel, ThinPlatesInAnyPosition) {
     for (const double angle : {0.1, 0.5}) {

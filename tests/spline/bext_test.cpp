@@ -107,7 +107,8 @@ const Broken broken_files[] = {
     {"weight", "gnode 1 0 0 1", "gnode 1 0 0 -1", "weight", 6},
     {"degree", "3 3 3", "3 2 3", "degree", 13},
     {"control_point", "0 1 2 3 4 5 6 7", "0 1 2 3 4 5 6 8", "control point 8 of 8", 14},
-    {"twice", "0 1 2 3 4 5 6 7", "0 1 2 3 4 5 6 6", "twice", 0},
+    {"twice", "0 1 2 3 4 5 6 7", "0 1 2 3 4 5 6 6", "control point 6 twice in an element", 14},
+    {"column_twice", "\nd ", "\ns 2 5 0.1 5 0.1 ", "column 5 twice in a row", 15},
     {"row_kind", "\nd ", "\nq ", "'q' where a row", 15},
     {"keyword", "belem", "delem", "unknown keyword 'delem'", 13},
 };

@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <limits>
 #include <optional>
+#include <utility>
 
 namespace hex {
 namespace {
@@ -368,10 +369,6 @@ void append(VoxelResult& all, const VoxelResult& body) {
     positions.insert(positions.end(), body.cells.positions().begin(), body.cells.positions().end());
     all.cells = HexMesh(std::move(positions), std::move(cells));
     VoxelReport& report = all.report;
-    if (body.report.cells > report.cells) {
-        report.grid = body.report.grid;
-        report.planes = body.report.planes;
-    }
     report.cell_size = std::min(report.cell_size, body.report.cell_size);
     report.cells += body.report.cells;
     report.tries += body.report.tries;
@@ -412,14 +409,22 @@ VoxelResult build(const TriangleMesh& surface, const VoxelOptions& options, cons
                                                            bounding_box(surface).diagonal());
     for (const Body& body : bodies) require_bearable(body.surface, size);
     std::optional<VoxelResult> all;
+    std::size_t most_cells = 0;
     for (std::size_t b = 0; b < bodies.size(); ++b) {
         context.progress("voxel", static_cast<double>(b) / static_cast<double>(bodies.size()));
         const double largest = largest_of_body * bounding_box(bodies[b].surface).diagonal();
         VoxelResult one = build_body(bodies[b].surface, std::min(size, largest), options, context);
-        if (all)
-            append(*all, one);
-        else
+        const bool largest_yet =
+            one.report.cells > std::exchange(most_cells, std::max(most_cells, one.report.cells));
+        if (!all) {
             all.emplace(std::move(one));
+            continue;
+        }
+        append(*all, one);
+        if (largest_yet) {
+            all->report.grid = one.report.grid;
+            all->report.planes = one.report.planes;
+        }
     }
     return std::move(*all);
 }

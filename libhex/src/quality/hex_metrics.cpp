@@ -21,8 +21,9 @@ constexpr auto neither = BetterWhen::neither;
 constexpr std::array metrics = {
     HexMetricInfo{HexMetric::condition, "condition", smaller, 1, true, "the same as max_aspect_frobenius"},
     HexMetricInfo{HexMetric::diagonal, "diagonal", larger, 1, true, "shortest over longest diagonal"},
-    HexMetricInfo{HexMetric::dimension, "dimension", neither, 0.5773502691896257, true,
-                  "volume over twice its gradient: length for a stable time step (Pronto)"},
+    HexMetricInfo{
+        HexMetric::dimension, "dimension", neither, 0.5773502691896257, true,
+        "volume over sqrt(2) times the norm of its gradient: length for a stable time step (Pronto)"},
     HexMetricInfo{HexMetric::distortion, "distortion", larger, 1, true,
                   "8 x smallest Jacobian at corners and Gauss points over the volume"},
     HexMetricInfo{HexMetric::edge_ratio, "edge_ratio", smaller, 1, true,

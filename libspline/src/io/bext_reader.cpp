@@ -6,6 +6,7 @@
 #include <spline/io/bext2.h>
 
 #include <algorithm>
+#include <bitset>
 #include <string>
 #include <string_view>
 
@@ -81,11 +82,17 @@ class Reader {
                 words_.fail("elements of another degree than 3", ErrorKind::unsupported);
         }
         functions_.clear();
+        last_element_of_.resize(spline_.control_points.size());
         for (std::size_t i = 0; i < functions; ++i) {
             const std::size_t id = words_.count("a control point");
             if (id >= spline_.control_points.size())
                 words_.fail("control point " + std::to_string(id) + " of " +
                             std::to_string(spline_.control_points.size()) + " (0-based)");
+            // Numbered from 1, so that 0 is none.
+            std::size_t& last_element = last_element_of_.at(id);
+            if (last_element == spline_.elements.size() + 1)
+                words_.fail("control point " + std::to_string(id) + " twice in an element");
+            last_element = spline_.elements.size() + 1;
             functions_.push_back(static_cast<std::uint32_t>(id));
         }
         for (auto& column : columns_) column.clear();
@@ -98,11 +105,9 @@ class Reader {
                 words_.fail("element " + std::to_string(spline_.elements.size()) +
                             " has no coefficient for Bezier point " + std::to_string(p));
             std::sort(column.begin(), column.end());
-            for (std::size_t i = 0; i < column.size(); ++i) {
-                if (i > 0 && column[i].first == column[i - 1].first)
-                    words_.fail("control point " + std::to_string(column[i].first) + " twice in an element");
-                spline_.rows.columns.push_back(column[i].first);
-                spline_.rows.values.push_back(column[i].second);
+            for (const auto& [function, value] : column) {
+                spline_.rows.columns.push_back(function);
+                spline_.rows.values.push_back(value);
             }
             points[p] = static_cast<std::uint32_t>(spline_.rows.size());
             spline_.rows.offsets.push_back(spline_.rows.columns.size());
@@ -124,9 +129,12 @@ class Reader {
         const std::size_t count = words_.count("the number of coefficients");
         if (count > 64)
             words_.fail("a row of " + std::to_string(count) + " coefficients; there are 64 Bezier points");
+        std::bitset<64> given;
         for (std::size_t i = 0; i < count; ++i) {
             const std::size_t column = words_.count("a column");
             if (column >= 64) words_.fail("column " + std::to_string(column) + " of 64 (0-based)");
+            if (given.test(column)) words_.fail("column " + std::to_string(column) + " twice in a row");
+            given.set(column);
             const double value = words_.real("a coefficient");
             if (value != 0.0) columns_[column].emplace_back(function, value);
         }
@@ -136,6 +144,7 @@ class Reader {
     BezierSpline spline_;
     std::size_t nodes_ = 0, elements_ = 0;
     std::vector<std::uint32_t> functions_;
+    std::vector<std::size_t> last_element_of_;  // of each control point, from 1; 0: of none yet
     std::array<std::vector<std::pair<std::uint32_t, double>>, 64> columns_;
 };
 

@@ -87,7 +87,7 @@ class IntegerProgram {
     /// Number of rows so far; a distance adds two.
     int rows() const { return static_cast<int>(rows_.size()); }
 
-    /// Solves. The result satisfies all rows within 1e-6.
+    /// Solves. The solver keeps to all rows within 1e-6; integer variables are rounded after that.
     Result minimise(const Limits& limits) const;
     /// Solves with the default limits.
     Result minimise() const { return minimise(Limits()); }

@@ -19,7 +19,7 @@ struct IsolatedLimits {
     unsigned seconds = 0;            ///< by the clock on the wall; 0: no limit
 };
 
-/// Runs `body` in a forked child, with its standard output and error closed, and returns the bytes it
+/// Runs `body` in a forked child, with its standard output and error going nowhere, and returns the bytes it
 /// returns, or what stopped the child before that: a signal, a call of exit(), a limit. What `body` throws
 /// must not leave it. Throws Error{output} when no process can be made.
 ///

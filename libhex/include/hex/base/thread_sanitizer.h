@@ -29,19 +29,22 @@ namespace hex::detail {
 /// before what a thread does after a later `take` of the same point.
 class HandOver {
   public:
-#ifdef HEXSPLINE_THREAD_SANITIZER
+    /// Hands over what this thread has done so far.
     void leave() const noexcept {
+#ifdef HEXSPLINE_THREAD_SANITIZER
         __tsan_release(const_cast<char*>(&place_));
+#endif
     }
+    /// Takes what was handed over here so far.
     void take() const noexcept {
+#ifdef HEXSPLINE_THREAD_SANITIZER
         __tsan_acquire(const_cast<char*>(&place_));
+#endif
     }
 
+#ifdef HEXSPLINE_THREAD_SANITIZER
   private:
     char place_ = 0;
-#else
-    void leave() const noexcept {}
-    void take() const noexcept {}
 #endif
 };
 
@@ -49,6 +52,7 @@ class HandOver {
 /// `to`.
 class HandedOver {
   public:
+    /// Takes what was left at `from`; `to` must outlive this.
     HandedOver(const HandOver& from, const HandOver& to) noexcept : to_(to) { from.take(); }
     ~HandedOver() { to_.leave(); }
     HandedOver(const HandedOver&) = delete;
@@ -80,8 +84,10 @@ class ParallelSection {
 template <class Work>
 class PartOf {
   public:
+    /// Keeps the addresses of both.
     PartOf(const ParallelSection& section, const Work& work) noexcept : section_(&section), work_(&work) {}
 
+    /// What `work` returns for these.
     template <class... Arguments>
     HEXSPLINE_UNSEEN_BY_THREAD_SANITIZER decltype(auto) operator()(Arguments&&... arguments) const {
         return run(*section_, *work_, std::forward<Arguments>(arguments)...);

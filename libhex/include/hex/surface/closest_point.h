@@ -58,7 +58,7 @@ class ClosestOnSegments {
         Vec3 point;                 ///< on the segment, closest to the point that was asked for
         std::uint32_t segment = 0;  ///< number of a segment that has it
     };
-    /// The point of the segments that is closest to p. None when no segment is nearer than `radius`.
+    /// The point of the segments that is closest to p. None when all are farther than `radius`.
     std::optional<Answer> operator()(const Vec3& p, double radius) const;
 
   private:

@@ -45,8 +45,8 @@ struct PatchLayout {
 };
 
 /// Finds the patches of a closed triangle surface from `mesh.data(face).part`. Never throws on odd patches:
-/// what is wrong with them is told by `four_sided == false` and diagnose_layout. Linear in the number of
-/// triangles.
+/// what is wrong with them is told by `four_sided == false` and diagnose_layout. It takes O(n log n)
+/// for n triangles.
 PatchLayout find_patches(const TriangleMesh& mesh);
 
 /// Everything that keeps the layout from being a polycube surface: patches that are no disks, have several
