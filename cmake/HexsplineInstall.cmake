@@ -9,7 +9,4 @@ write_basic_package_version_file("${PROJECT_BINARY_DIR}/hexspline-config-version
 install(FILES "${PROJECT_BINARY_DIR}/hexspline-config.cmake" "${PROJECT_BINARY_DIR}/hexspline-config-version.cmake"
               "${PROJECT_SOURCE_DIR}/cmake/FindOpenMeshCore.cmake"
         DESTINATION "${package_dir}")
-install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/README.md" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
-# What Debian looks for in every package.
-install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DOCDIR}" RENAME copyright)
 include(HexsplinePackage)

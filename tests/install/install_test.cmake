@@ -1,4 +1,4 @@
-# cmake -DBUILD_DIR= -DCONSUMER_DIR= -DPLUGIN_DIR= -DDATA_DIR= -DWORK_DIR= -DVERSION= -P install_test.cmake
+# cmake -DBUILD_DIR= -DCONSUMER_DIR= -DPLUGIN_DIR= -DDATA_DIR= -DWORK_DIR= -DVERSION= -DPYTHON= -P install_test.cmake
 function(run)
     execute_process(COMMAND ${ARGV} RESULT_VARIABLE result)
     if(NOT result EQUAL 0)
@@ -16,6 +16,7 @@ endfunction()
 file(REMOVE_RECURSE "${WORK_DIR}")
 set(prefix "${WORK_DIR}/prefix")
 run(${CMAKE_COMMAND} --install "${BUILD_DIR}" --prefix "${prefix}")
+run("${PYTHON}" "${CMAKE_CURRENT_LIST_DIR}/links_test.py" "${prefix}")
 set(flags "")
 if(SANITIZE)
     string(REPLACE ";" "," SANITIZE "${SANITIZE}")

@@ -1,6 +1,6 @@
-# cmake -DBUILD_DIR= -DWORK_DIR= -DDATA_DIR= -DVERSION= -P package_test.cmake
-# cpack makes a Debian package with everything in its place, what it depends on are packages of this Debian, and its program makes a part
-# from where it was unpacked, with its own libraries.
+# cmake -DBUILD_DIR= -DWORK_DIR= -DVERSION= -DPYTHON= -DCHANGELOG= -P package_test.cmake
+# cpack makes a Debian package with everything in its place, what it depends on are packages of this Debian, and its program takes a
+# part of its own to a spline from where it was unpacked, with its own libraries.
 function(run)
     execute_process(COMMAND ${ARGV} RESULT_VARIABLE result OUTPUT_VARIABLE output ERROR_VARIABLE errors)
     if(NOT result EQUAL 0)
@@ -11,10 +11,16 @@ endfunction()
 
 file(REMOVE_RECURSE "${WORK_DIR}")
 file(MAKE_DIRECTORY "${WORK_DIR}")
-run(cpack -G DEB --config "${BUILD_DIR}/CPackConfig.cmake" -B "${WORK_DIR}")
-file(GLOB package "${WORK_DIR}/hexspline_${VERSION}_*.deb")
+# Who makes it may keep his files to himself: those of the package are for all.
+run(sh -c "umask 077 && exec cpack -G DEB --config '${BUILD_DIR}/CPackConfig.cmake' -B '${WORK_DIR}'")
+file(GLOB package "${WORK_DIR}/hexspline_${VERSION}-1_*.deb")
 if(NOT package)
     message(FATAL_ERROR "cpack made no package")
+endif()
+run(dpkg-deb --contents "${package}")
+string(REGEX REPLACE "(drwxr-xr-x|-rwxr-xr-x|-rw-r--r--|lrwxrwxrwx) root/root [^\n]*\n" "" others "${output}")
+if(others)
+    message(FATAL_ERROR "permissions in the package:\n${others}")
 endif()
 run(dpkg-deb --info "${package}")
 if(NOT output MATCHES "Depends: .*libtbb")
@@ -34,18 +40,46 @@ foreach(name ${names})
 endforeach()
 run(dpkg-deb --extract "${package}" "${WORK_DIR}/unpacked")
 foreach(file bin/hexspline lib/libhexspline_hex.so include/hex/volume/hex_mesh.h include/spline/spline.h
-             lib/cmake/hexspline/hexspline-config.cmake share/man/man1/hexspline.1 share/man/man1/hexspline-check.1
-             share/bash-completion/completions/hexspline share/zsh/vendor-completions/_hexspline share/doc/hexspline/README.md)
+             lib/cmake/hexspline/hexspline-config.cmake share/man/man1/hexspline.1.gz share/man/man1/hexspline-check.1.gz
+             share/bash-completion/completions/hexspline share/zsh/vendor-completions/_hexspline share/doc/hexspline/README.md
+             share/doc/hexspline/copyright share/doc/hexspline/changelog.gz share/doc/hexspline/changelog.Debian.gz)
     if(NOT EXISTS "${WORK_DIR}/unpacked/usr/${file}")
         message(FATAL_ERROR "the package has no /usr/${file}")
     endif()
 endforeach()
+run("${PYTHON}" "${CMAKE_CURRENT_LIST_DIR}/links_test.py" "${WORK_DIR}/unpacked/usr")
+# As gzip -9n writes: with no name, no time, and all that can be saved.
+file(GLOB_RECURSE compressed "${WORK_DIR}/unpacked/*.gz")
+foreach(file ${compressed})
+    file(READ "${file}" start LIMIT 9 HEX)
+    if(NOT start STREQUAL "1f8b08000000000002")
+        message(FATAL_ERROR "${file} starts with ${start}")
+    endif()
+    run(gzip --test "${file}")
+endforeach()
+file(GLOB loose "${WORK_DIR}/unpacked/usr/share/man/man1/*.1")
+if(loose)
+    message(FATAL_ERROR "not compressed: ${loose}")
+endif()
+set(documents "${WORK_DIR}/unpacked/usr/share/doc/hexspline")
+run(sh -c "gzip -dc '${documents}/changelog.gz' | cmp - '${CHANGELOG}'")
+run(dpkg-deb --field "${package}" Version)
+string(STRIP "${output}" version)
+run(gzip -dc "${documents}/changelog.Debian.gz")
+string(FIND "${output}" "hexspline (${version}) " place)
+if(NOT place EQUAL 0)
+    message(FATAL_ERROR "changelog.Debian.gz does not start with version ${version}\n${output}")
+endif()
+run(gzip -dc "${WORK_DIR}/unpacked/usr/share/man/man1/hexspline-check.1.gz")
+if(NOT output MATCHES "^\\.TH HEXSPLINE\\\\-CHECK 1 .*min\\\\-scaled\\\\-jacobian")
+    message(FATAL_ERROR "the man page of check is\n${output}")
+endif()
 run("${WORK_DIR}/unpacked/usr/bin/hexspline" --version)
 if(NOT output STREQUAL "hexspline ${VERSION}\n")
     message(FATAL_ERROR "the packaged program says ${output}")
 endif()
 
-run("${WORK_DIR}/unpacked/usr/bin/hexspline" run "${DATA_DIR}/bracket/bracket.stl" -o "${WORK_DIR}/bracket")
+run("${WORK_DIR}/unpacked/usr/bin/hexspline" run "${documents}/data/bracket/bracket.stl" -o "${WORK_DIR}/bracket")
 foreach(file 1-segment.k 2-blocks.k 4-improve.vtk 5-spline.bext 5-spline.vtu report.json)
     if(NOT EXISTS "${WORK_DIR}/bracket/${file}")
         message(FATAL_ERROR "the packaged program made no ${file}")
