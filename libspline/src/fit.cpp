@@ -278,6 +278,10 @@ void check(const BezierSpline& spline) {
 FitReport fit(BezierSpline& spline, JacobianReport& verdict, const hex::TriangleMesh& surface,
               const FitOptions& options, const hex::Context& context) {
     check(spline);
+    if (options.rounds < 1)
+        throw hex::Error(hex::ErrorKind::usage, "the number of rounds of a fit must be at least 1");
+    if (!(options.fairness > 0.0))
+        throw hex::Error(hex::ErrorKind::usage, "the weight of fairness must be positive");
     return hex::with_threads(context, [&] { return Fit(spline, verdict, surface, options, context).run(); });
 }
 

@@ -4,6 +4,7 @@
 #include "jacobian_penalty.h"
 
 #include <hex/base/components.h>
+#include <hex/base/error.h>
 #include <hex/base/parallel.h>
 #include <spline/repair.h>
 
@@ -282,6 +283,10 @@ std::vector<char> boundary_functions(const BezierSpline& spline) {
 
 RepairReport repair_jacobian(BezierSpline& spline, JacobianReport& verdict, const RepairOptions& options,
                              const hex::Context& context) {
+    if (!(options.max_deviation >= 0.0))
+        throw hex::Error(hex::ErrorKind::usage, "how far the boundary may move must not be negative");
+    if (options.most_rounds < 1)
+        throw hex::Error(hex::ErrorKind::usage, "the number of rounds of a repair must be at least 1");
     RepairReport report;
     if (verdict.proved() || spline.rational()) {
         report.negative_before = report.negative_after = verdict.negative.size();

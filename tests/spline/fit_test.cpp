@@ -80,5 +80,23 @@ TEST(Fit, NeedsToKnowTheBoundary) {
     EXPECT_THROW(fit(s, verdict, sphere(4)), hex::Error);
 }
 
+TEST(Fit, RefusesOptionsThatMeanNothing) {
+    BezierSpline s = ball();
+    JacobianReport verdict = certify(s);
+    const auto kind = [&](const FitOptions& options) {
+        try {
+            fit(s, verdict, sphere(4), options);
+        } catch (const hex::Error& error) {
+            return error.kind();
+        }
+        return hex::ErrorKind::cancelled;  // none
+    };
+    FitOptions none, negative;
+    none.rounds = 0;
+    negative.fairness = -1e-5;
+    EXPECT_EQ(kind(none), hex::ErrorKind::usage);
+    EXPECT_EQ(kind(negative), hex::ErrorKind::usage);
+}
+
 }  // namespace
 }  // namespace spline::test

@@ -117,6 +117,17 @@ TEST(Repair, NamesWhatCannotBeMended) {
     EXPECT_EQ(report.negative_after, verdict.negative.size());
 }
 
+TEST(Repair, RefusesOptionsThatMeanNothing) {
+    BezierSpline s = build(hex::test::grid(1, 1, 1)).spline;
+    JacobianReport verdict = certify(s);
+    RepairOptions options;
+    options.max_deviation = -1.0;
+    EXPECT_THROW(repair_jacobian(s, verdict, options), hex::Error);
+    options = {};
+    options.most_rounds = 0;
+    EXPECT_THROW(repair_jacobian(s, verdict, options), hex::Error);
+}
+
 TEST(Repair, TheSameForAnyNumberOfThreads) {
     std::vector<std::vector<Vec3>> results;
     for (const int threads : {1, 2}) {

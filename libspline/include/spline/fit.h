@@ -42,7 +42,7 @@ struct FitReport {
 
 /// `verdict` must be `certify` of the spline, and is that of the result. Throws Error{unsupported} for
 /// rational splines and for those whose boundary is not known (BezierSpline::boundary_patch). The same result
-/// for any number of threads.
+/// for any number of threads. Throws Error{usage} for options out of their ranges.
 FitReport fit(BezierSpline& spline, JacobianReport& verdict, const hex::TriangleMesh& surface,
               const FitOptions& options = {}, const hex::Context& context = {});
 

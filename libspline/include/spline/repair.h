@@ -44,7 +44,8 @@ struct RepairReport {
 ///
 /// `verdict` must be `certify` of the spline and is that of the result. Nothing at all is changed when all
 /// elements are proved positive; partition of unity and continuity do not depend on control points. Rational
-/// splines are left alone. The same result for any number of threads.
+/// splines are left alone. The same result for any number of threads. Throws Error{usage} for options out of
+/// their ranges, Error{cancelled}.
 RepairReport repair_jacobian(BezierSpline& spline, JacobianReport& verdict, const RepairOptions& options = {},
                              const hex::Context& context = {});
 
