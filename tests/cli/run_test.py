@@ -66,6 +66,30 @@ class Run(CommandTest):
         self.assertEqual((self.folder / 'out' / '5-spline.bext').read_bytes(),
                          (self.folder / 'plain' / '5-spline.bext').read_bytes())
 
+    def test_going_on_with_another_part_is_refused(self):
+        self.chain('-o', 'out', '--to', 'map')
+        out = self.folder / 'out'
+        before = {path.name: path.read_bytes() for path in out.iterdir()}
+        for stage in ('polycube', 'map', 'improve'):
+            with self.subTest(stage):
+                message = self.run_program('run', DATA / 'rod' / 'rod.stl', '--from', stage, '-o', 'out', code=2).stderr
+                self.assertRegex(message, r'error: \S*rod\.stl: .*results in out ')
+                self.run_program('run', 'missing.stl', '--from', stage, '-o', 'out', code=3)
+                self.assertEqual({path.name: path.read_bytes() for path in out.iterdir()}, before)
+        # The same part under another name, and the folder's own surface.
+        shutil.copy(BRACKET / 'bracket.stl', self.folder / 'other.stl')
+        made_from = self.report('out')['input_file']
+        for part in ('other.stl', 'out/1-segment.k', 'out/2-patches.k'):
+            self.run_program('run', part, '--from', 'improve', '--to', 'improve', '-o', 'out')
+            self.assertEqual(self.report('out')['input_file'], made_from)
+        # Folders of earlier versions, and those made by hand, do not tell what they were made from.
+        report = self.report('out')
+        del report['input_file']
+        for text in (json.dumps(report), '{"input_file": 7}', '[]', '{'):
+            (out / 'report.json').write_text(text)
+            self.run_program('run', DATA / 'rod' / 'rod.stl', '--from', 'improve', '--to', 'improve', '-o', 'out')
+            self.assertNotIn('input_file', self.report('out'))
+
     def automatic(self, route, *arguments):
         self.run_program('run', BRACKET / 'bracket.stl', '-o', 'automatic', '--to', 'improve', *arguments)
         report = self.report('automatic')

@@ -10,7 +10,6 @@
 #include <hex/io/list_file.h>
 #include <hex/io/output_file.h>
 #include <hex/io/surface_file.h>
-#include <hex/io/text_file.h>
 #include <hex/polycube/polycube.h>
 #include <hex/surface/polygon_soup.h>
 #include <spline/io/bext.h>
@@ -47,21 +46,6 @@ std::vector<std::string> split_list(const std::string& text) {
     return items;
 }
 
-bool is_there(const std::filesystem::path& file) {
-    std::error_code unknown;
-    return std::filesystem::exists(std::filesystem::symlink_status(file, unknown));
-}
-
-/// The route that an earlier run into this folder took, if it can be told.
-std::optional<hex::Route> route_of_report(const std::filesystem::path& file) {
-    if (!is_there(file)) return {};
-    const Json report = Json::parse(hex::io::read_text_file(file), nullptr, false);
-    if (!report.is_object() || !report.contains("route")) return {};
-    for (const hex::Route route : {hex::Route::given, hex::Route::labelling, hex::Route::voxel})
-        if (report["route"] == hex::name_of(route)) return route;
-    return {};
-}
-
 }  // namespace
 
 Chain::Chain(const CommandLine& line) : line_(line), folder_(line.output()) {
@@ -77,9 +61,14 @@ int Chain::run() {
     const auto first = static_cast<Stage>(stage_index("from", line_.get<std::string>("from")));
     const auto last = static_cast<Stage>(stage_index("to", line_.get<std::string>("to")));
     if (first > last) throw hex::Error(hex::ErrorKind::usage, "--from comes after --to");
-    choose_route(first);
+    if (first > segment_stage) earlier_ = EarlierRun(folder_);
+    choose_route();
     require_inputs_stay(first);
-    if (first > segment_stage) make_folder();
+    if (first > segment_stage) {
+        earlier_.require_input(line_.input());
+        input_file_ = earlier_.input_file();
+        make_folder();
+    }
     if (first < spline_stage) run_hex_stages(first, std::min(last, improve_stage));
     if (last == spline_stage) {
         const auto start = std::chrono::steady_clock::now();
@@ -113,7 +102,7 @@ void Chain::require_inputs_stay(Stage first) const {
                              "go on with --from polycube, or give another output folder");
 }
 
-void Chain::choose_route(Stage first) {
+void Chain::choose_route() {
     const auto wish = line_.get<std::string>("route");
     if (wish != "auto" && wish != "labelling" && wish != "voxel")
         throw hex::Error(hex::ErrorKind::usage, "--route is not known: '" + wish + "'", {},
@@ -123,11 +112,9 @@ void Chain::choose_route(Stage first) {
         throw hex::Error(hex::ErrorKind::usage,
                          "--route and a person's --segmentation or --blocks exclude each other");
     // An earlier run's files are gone on with along its route.
-    std::optional<hex::Route> earlier;
-    if (first > segment_stage) earlier = route_of_report(folder_ / "report.json");
     options_.route = is_given          ? hex::Route::given
                      : wish == "voxel" ? hex::Route::voxel
-                                       : earlier.value_or(hex::Route::labelling);
+                                       : earlier_.route().value_or(hex::Route::labelling);
     options_.or_voxels = wish == "auto";
     model_.route = options_.route;
 }
@@ -139,6 +126,7 @@ void Chain::run_hex_stages(Stage first, Stage last) {
         SurfaceInput input = load_surface_input(line_, line_.input());
         model_.surface = std::move(input.mesh);
         repair_ = {{"repair", std::move(input.repair)}};
+        input_file_ = fingerprint(line_.input());
         make_folder();
     } else if (model_.route == hex::Route::voxel || (first == polycube_stage && !is_given)) {
         model_.surface = load_triangles(line_, folder_ / "1-segment.k");
@@ -296,6 +284,7 @@ void Chain::add_seconds(Stage stage, double seconds) {
 
 Json Chain::report() const {
     Json report = {{"route", hex::name_of(model_.route)}};
+    if (!input_file_.is_null()) report["input_file"] = input_file_;
     report.update(repair_);
     report.update(describe(model_));
     report.update(spline_report_);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "hexspline/command.h"
+#include "hexspline/earlier_run.h"
 
 #include <hex/hexahedralize/hexahedralize.h>
 #include <hex/surface/mesh_types.h>
@@ -37,7 +38,7 @@ class Chain {
     void require_inputs_stay(Stage first) const;
     /// The file is one that a person gave: it stays as it is.
     bool is_given(const char* option, const std::filesystem::path& file) const;
-    void choose_route(Stage first);
+    void choose_route();
     /// Runs the stages that are asked for, but for the spline.
     void run_hex_stages(Stage first, Stage last);
     /// Runs `first` to `last` on the model.
@@ -62,6 +63,8 @@ class Chain {
     std::filesystem::path folder_;
     hex::HexahedralizeOptions options_;
     hex::HexModel model_;
+    EarlierRun earlier_;            ///< when stages before the first are not run
+    Json input_file_ = nullptr;     ///< fingerprint of what the surface was made from, if that is known
     Json repair_ = Json::object();  ///< of the input
     Json tries_ = Json::array();
     std::string route_reason_;
