@@ -90,6 +90,24 @@ class Run(CommandTest):
             self.run_program('run', DATA / 'rod' / 'rod.stl', '--from', 'improve', '--to', 'improve', '-o', 'out')
             self.assertNotIn('input_file', self.report('out'))
 
+    def test_going_on_without_what_comes_before_names_it_and_makes_no_folder(self):
+        part, patches, blocks = BRACKET / 'bracket.stl', GIVEN[:2], GIVEN[2:]
+        for stage, missing, *options in (('polycube', '1-segment.k'), ('map', '2-blocks.k'), ('map', '2-blocks.k', *patches),
+                                         ('map', '2-patches.k', *blocks), ('improve', '3-map.vtk'), ('improve', '3-map.vtk', *GIVEN),
+                                         ('polycube', '1-segment.k', *blocks), ('map', '2-blocks.k', '--route', 'voxel'),
+                                         ('spline', '4-improve.vtk')):
+            with self.subTest(stage=stage, options=options):
+                message = self.run_program('run', part, '--from', stage, '-o', 'none', *options, code=3).stderr
+                self.assertIn(f'error: none/{missing}: is missing, and --from {stage} goes on with it', message)
+                self.assertFalse((self.folder / 'none').exists())
+        (self.folder / 'empty').mkdir()
+        self.assertIn('empty/2-blocks.k', self.run_program('run', part, '--from', 'map', '-o', 'empty', code=3).stderr)
+        # What is given need not be there, and what cannot be read leaves no folder either.
+        self.run_program('run', part, '--from', 'map', *GIVEN, '-s', 0, '--to', 'map', '-o', 'given')
+        self.run_program('run', part, '--from', 'map', *patches, '--blocks', 'missing.k', '-o', 'none', code=3)
+        self.run_program('run', part, '--from', 'polycube', *blocks, '--segmentation', 'missing.k', '-o', 'none', code=3)
+        self.assertFalse((self.folder / 'none').exists())
+
     def automatic(self, route, *arguments):
         self.run_program('run', BRACKET / 'bracket.stl', '-o', 'automatic', '--to', 'improve', *arguments)
         report = self.report('automatic')

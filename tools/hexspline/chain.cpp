@@ -65,9 +65,9 @@ int Chain::run() {
     choose_route();
     require_inputs_stay(first);
     if (first > segment_stage) {
+        require_results_before(first);
         earlier_.require_input(line_.input());
         input_file_ = earlier_.input_file();
-        make_folder();
     }
     if (first < spline_stage) run_hex_stages(first, std::min(last, improve_stage));
     if (last == spline_stage) {
@@ -100,6 +100,24 @@ void Chain::require_inputs_stay(Stage first) const {
         if (is_given("input", folder_ / name))
             throw hex::Error(hex::ErrorKind::usage, "the input would be overwritten", line_.input().string(),
                              "go on with --from polycube, or give another output folder");
+}
+
+void Chain::require_results_before(Stage first) const {
+    const auto require = [&](const char* name, const char* option) {
+        if ((option != nullptr && line_.given(option)) || is_there(folder_ / name)) return;
+        std::string advice = "run the stages before it first";
+        if (option != nullptr) advice.append(", or give --").append(option);
+        throw hex::Error(hex::ErrorKind::bad_input,
+                         std::string("is missing, and --from ") + stage_names[first] + " goes on with it",
+                         (folder_ / name).string(), advice);
+    };
+    if (first == spline_stage) return require("4-improve.vtk", nullptr);
+    if (first == improve_stage) require("3-map.vtk", nullptr);
+    if (first == map_stage) require("2-blocks.k", "blocks");
+    if (first == polycube_stage || model_.route == hex::Route::voxel)
+        require("1-segment.k", model_.route == hex::Route::voxel ? nullptr : "segmentation");
+    else
+        require("2-patches.k", "segmentation");
 }
 
 void Chain::choose_route() {
@@ -146,6 +164,7 @@ void Chain::run_hex_stages(Stage first, Stage last) {
     if (first >= map_stage) load_patches();
     if (first == improve_stage) model_.mapped = load_hexahedra(line_, folder_ / "3-map.vtk");
     count_time(first, start);
+    make_folder();
     hexahedralize(first, last);
     if (last == improve_stage && model_.quality->inverted > 0)
         throw hex::Error(
@@ -189,6 +208,7 @@ void Chain::check_given_patches() {
     model_.patches = std::move(mesh);
     model_.polycube = std::move(result.polycube);
     if (line_.given("blocks")) load_blocks();
+    make_folder();
     write(hex::HexStage::polycube, model_);
 }
 

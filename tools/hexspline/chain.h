@@ -38,6 +38,8 @@ class Chain {
     void require_inputs_stay(Stage first) const;
     /// The file is one that a person gave: it stays as it is.
     bool is_given(const char* option, const std::filesystem::path& file) const;
+    /// Throws Error{bad_input} that names a result that `first` needs and neither folder nor options have.
+    void require_results_before(Stage first) const;
     void choose_route();
     /// Runs the stages that are asked for, but for the spline.
     void run_hex_stages(Stage first, Stage last);
