@@ -87,6 +87,55 @@ class Formats(CommandTest):
             message, = self.run_program('convert', 'part.inp', '-o', name).stderr.splitlines()
             self.assertRegex(message, f'warning: {name}: .* no names of parts; those of 2 are lost')
 
+    def write_shells(self, name, names):
+        """A row of shells, parts 1, 2, ... with these titles in LS-DYNA's keywords, or as groups of Gmsh."""
+        points = [(i % 2, i // 2, 0) for i in range(2 * len(names) + 2)]
+        numbered = [*enumerate(names, 1)]
+        rows = [(i, 2 * i - 1, 2 * i, 2 * i + 2, 2 * i + 1) for i, _ in numbered]
+        if name.endswith('.k'):
+            lines = ['*KEYWORD', *(f'*PART\n{title}\n{i},0,0' for i, title in numbered), '*NODE',
+                     *(f'{i},{x},{y},{z}' for i, (x, y, z) in enumerate(points, 1)), '*ELEMENT_SHELL',
+                     *(f'{i},{i},{a},{b},{c},{d}' for i, a, b, c, d in rows), '*END']
+        else:
+            lines = ['$MeshFormat', '2.2 0 8', '$EndMeshFormat', '$PhysicalNames', len(names),
+                     *(f'2 {i} "{title}"' for i, title in numbered), '$EndPhysicalNames', '$Nodes', len(points),
+                     *(f'{i} {x} {y} {z}' for i, (x, y, z) in enumerate(points, 1)), '$EndNodes', '$Elements', len(rows),
+                     *(f'{i} 3 2 {i} {i} {a} {b} {c} {d}' for i, a, b, c, d in rows), '$EndElements']
+        (self.folder / name).write_text('\n'.join(map(str, lines)) + '\n')
+
+    def titles(self, name):
+        lines = (self.folder / name).read_text().splitlines()
+        return [lines[i + 1] for i, line in enumerate(lines) if line == '*PART']
+
+    def test_names_that_are_no_titles_of_ls_dyna_are_altered_with_a_warning_and_stay_apart(self):
+        long = 80 * 'n'
+        names = ['*a', '$a', '_a', '_a', 'b*$', long, long + 'one', long + 'two', 79 * 'm' + '\u00e9', '  *c ']
+        self.write_shells('named.msh2', names)
+        told = self.run_program('convert', 'named.msh2', '-o', 'named.k').stderr
+        self.assertIn("names of parts are written as LS-DYNA keyword can hold them: '*a' as '_a_1' (and 5 more)", told)
+        titles = ['_a_1', '_a_2', '_a', '_a', 'b*$', long, 78 * 'n' + '_7', 78 * 'n' + '_8', 79 * 'm', '_c']
+        self.assertEqual(self.titles('named.k'), titles)
+        # The names are as they were written: nothing is left to tell.
+        self.assertEqual(self.run_program('convert', 'named.k', '-o', 'again.k').stderr, '')
+        self.assertEqual(self.titles('again.k'), titles)
+
+    def test_names_are_no_longer_than_their_format_can_hold(self):
+        base = 124 * 'n'
+        names = [base + 'abc', base + 'abcd', base + 'ABCE', base[:80], base[:78] + '_3']
+        self.write_shells('named.msh2', names)
+        for name, longest, changed in (('named.inp', 80, 3), ('named.k', 80, 3), ('named.msh', 127, 2)):
+            with self.subTest(name):
+                told = self.run_program('convert', 'named.msh2', '-o', name).stderr
+                self.assertIn(f'(and {changed - 1} more)', told)
+                self.run_program('convert', name, '-o', 'back.msh2')
+                back = [line.split('"')[1] for line in (self.folder / 'back.msh2').read_text().splitlines() if '"' in line]
+                self.assertEqual((len(set(back)), max(map(len, back))), (5, longest))
+                # Those that fit are as they were.
+                self.assertLessEqual({title for title in names if len(title) <= longest}, set(back))
+        self.write_shells('short.msh2', [title[:80] for title in names[3:]])
+        for name in ('short.inp', 'short.k', 'short.msh'):
+            self.assertEqual(self.run_program('convert', 'short.msh2', '-o', name).stderr, '')
+
     def test_names_that_abaqus_would_take_for_one_stay_apart(self):
         names = ['PART_2', None, 'a,b', 'a=b', 'Steel', 'STEEL', 'STEEL_6', 'last', 'PART_08']
         (self.folder / 'named.k').write_text('*KEYWORD\n' + ''.join(

@@ -460,7 +460,7 @@ void append_sets(OutputFile& out, std::span<const int> parts, const PartNames& n
 }  // namespace
 
 PartNames abaqus_names(std::span<const int> parts, const PartNames& names) {
-    return distinct_names_without(",\"=*", parts, names);
+    return distinct_names_within({",\"=*", "", 80}, parts, names);
 }
 
 MeshData read_abaqus(const InputFile& file) {

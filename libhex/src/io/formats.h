@@ -14,6 +14,7 @@
 namespace hex::io {
 
 MeshData read_ls_dyna(const InputFile& file);
+PartNames ls_dyna_names(std::span<const int> parts, const PartNames& names);
 void write_ls_dyna_surface(OutputFile& out, const PolygonSoup& soup, const PartNames& names);
 void write_ls_dyna_hexahedra(OutputFile& out, const HexMesh& mesh, const Fields& fields);
 

@@ -166,7 +166,7 @@ Elements elements_of(const HexMesh& mesh) {
 }  // namespace
 
 PartNames gmsh_names(std::span<const int> parts, const PartNames& names) {
-    return names_without("\"", parts, names);
+    return names_within({"\"", "", 127}, groups_of(parts), names);
 }
 
 void write_gmsh_surface(OutputFile& out, const PolygonSoup& soup, const PartNames& names) {

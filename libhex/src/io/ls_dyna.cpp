@@ -363,18 +363,12 @@ class LsDynaReader {
     std::map<std::string, std::vector<std::int64_t>> skipped_;
 };
 
-/// A name as a title: on one line that is neither a comment nor a keyword.
-std::string as_title(std::string name) {
-    for (char& c : name)
-        if (static_cast<unsigned char>(c) < 32) c = '_';
-    if (name.starts_with('$') || name.starts_with('*')) name.front() = '_';
-    return name;
-}
-
-void append_header(OutputFile& out, const char* block, const PartNames& names) {
+/// Titles of the parts that have a name.
+void append_header(OutputFile& out, const char* block, std::vector<int> parts, const PartNames& names) {
     out.write("$# LS-DYNA keyword file written by hexspline\n*KEYWORD\n");
-    for (const auto& [part, name] : names) {
-        out.write("*PART\n" + as_title(name) + "\n");
+    for (const auto& [part, name] : ls_dyna_names(distinct_parts(std::move(parts)), names)) {
+        if (!names.contains(part)) continue;
+        out.write("*PART\n" + name + "\n");
         append_number(out.buffer(), part);
         out.write(",0,0\n");
     }
@@ -413,8 +407,13 @@ MeshData read_ls_dyna(const InputFile& file) {
     return LsDynaReader(file).read();
 }
 
+PartNames ls_dyna_names(std::span<const int> parts, const PartNames& names) {
+    // A title is a line of 80 columns that is neither a comment nor a keyword.
+    return names_within({"", "$*", 80}, parts, names);
+}
+
 void write_ls_dyna_surface(OutputFile& out, const PolygonSoup& soup, const PartNames& names) {
-    append_header(out, "*ELEMENT_SHELL\n", names);
+    append_header(out, "*ELEMENT_SHELL\n", soup.parts, names);
     for (std::size_t f = 0; f < soup.size(); ++f) {
         const auto polygon = soup.polygon(f);
         const std::array<std::size_t, 4> corners = {polygon[0], polygon[1], polygon[2], polygon.back()};
@@ -425,7 +424,8 @@ void write_ls_dyna_surface(OutputFile& out, const PolygonSoup& soup, const PartN
 }
 
 void write_ls_dyna_hexahedra(OutputFile& out, const HexMesh& mesh, const Fields& fields) {
-    append_header(out, "*ELEMENT_SOLID\n", fields.part_names);
+    const auto& parts = mesh.parts();
+    append_header(out, "*ELEMENT_SOLID\n", {parts.begin(), parts.end()}, fields.part_names);
     for (const CellId c : mesh.cells()) {
         std::array<std::size_t, 8> corners{};
         for (std::size_t i = 0; i < 8; ++i) corners[i] = mesh.cell(c)[i].index();

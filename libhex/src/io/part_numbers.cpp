@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <climits>
+#include <map>
 #include <optional>
 #include <set>
 
@@ -52,30 +53,78 @@ std::string name_of_part(int part, const PartNames& names) {
     return found != names.end() ? found->second : std::string(prefix) + std::to_string(part);
 }
 
-PartNames names_without(std::string_view forbidden, std::span<const int> parts, const PartNames& names) {
+namespace {
+
+/// The first `longest` bytes, but no piece of a UTF-8 character.
+std::string cut(std::string name, std::size_t longest) {
+    if (name.size() <= longest) return name;
+    std::size_t end = longest;
+    while (end > 0 && longest - end < 3 && (static_cast<unsigned char>(name[end]) & 0xC0U) == 0x80U) --end;
+    name.resize(end);
+    return std::string(trimmed(name));
+}
+
+std::string allowed_name(const NameRules& rules, int part, const PartNames& names) {
+    std::string name = cut(std::string(trimmed(name_of_part(part, names))), rules.longest);
+    if (name.empty()) return name_of_part(part, {});
+    for (char& c : name)
+        if (static_cast<unsigned char>(c) < 32 || rules.forbidden.find(c) != std::string_view::npos) c = '_';
+    if (rules.forbidden_first.find(name.front()) != std::string_view::npos) name.front() = '_';
+    return name;
+}
+
+/// "name_7", or the first that is free of "name_7_2", "name_7_3", ...
+std::string with_number(const NameRules& rules, const std::string& name, int part, const auto& is_free) {
+    for (std::size_t count = 1;; ++count) {
+        std::string number = "_";
+        number += std::to_string(part);
+        if (count > 1) number.append("_").append(std::to_string(count));
+        const std::string wanted = cut(name, rules.longest - number.size()) + number;
+        if (is_free(wanted)) return wanted;
+    }
+}
+
+PartNames altered_names(const NameRules& rules, std::span<const int> parts, const PartNames& names) {
     PartNames written;
-    for (const int part : parts) {
-        std::string name(trimmed(name_of_part(part, names)));
-        if (name.empty()) name = name_of_part(part, {});
-        for (char& c : name)
-            if (static_cast<unsigned char>(c) < 32 || forbidden.find(c) != std::string_view::npos) c = '_';
-        written.emplace(part, std::move(name));
+    for (const int part : parts) written.emplace(part, allowed_name(rules, part, names));
+    return written;
+}
+
+}  // namespace
+
+PartNames names_within(const NameRules& rules, std::span<const int> parts, const PartNames& names) {
+    PartNames written = altered_names(rules, parts, names);
+    // Of each name as it is written what it was; those that are written as they are come first.
+    std::map<std::string, std::string> origins;
+    for (const auto& [part, name] : written)
+        if (name == name_of_part(part, names)) origins.emplace(name, name);
+    for (auto& [part, name] : written) {
+        const std::string original = name_of_part(part, names);
+        const auto is_free = [&](const std::string& wanted) {
+            return origins.emplace(wanted, original).first->second == original;
+        };
+        if (!is_free(name)) name = with_number(rules, name, part, is_free);
     }
     return written;
 }
 
-PartNames distinct_names_without(std::string_view forbidden, std::span<const int> parts,
-                                 const PartNames& names) {
-    PartNames written = names_without(forbidden, parts, names);
+PartNames distinct_names_within(const NameRules& rules, std::span<const int> parts, const PartNames& names) {
+    PartNames written = altered_names(rules, parts, names);
     std::set<std::string> taken;
-    for (const int part : parts) taken.insert(upper_case(name_of_part(part, {})));
-    for (auto& [part, name] : written) {
-        const std::string key = upper_case(name);
-        if (key == name_of_part(part, {}) || (!number_of(key) && taken.insert(key).second)) continue;
-        std::string other = name;
-        do other.append("_").append(std::to_string(part));
-        while (!taken.insert(upper_case(other)).second);
-        name = std::move(other);
+    std::set<int> originals;
+    for (const auto& [part, name] : written) {
+        taken.insert(name_of_part(part, {}));
+        if (name == name_of_part(part, names)) originals.insert(part);
+    }
+    const auto is_free = [&](const std::string& wanted) { return taken.insert(upper_case(wanted)).second; };
+    // Names that fit as they are come first.
+    for (const bool fits : {true, false}) {
+        for (auto& [part, name] : written) {
+            if (fits != originals.contains(part)) continue;
+            const std::string key = upper_case(name);
+            if (key == name_of_part(part, {}) || (!number_of(key) && is_free(name))) continue;
+            name = with_number(rules, name, part, is_free);
+        }
     }
     return written;
 }

@@ -18,14 +18,21 @@ std::vector<int> number_parts(const std::vector<std::string>& names, PartNames& 
 /// The name of a part, or "PART_7".
 std::string name_of_part(int part, const PartNames& names);
 
-/// The names of the parts as a format writes them that knows no control characters and none of `forbidden`,
-/// which become '_', nor blanks at the ends; one of nothing else is "PART_7". `parts` are distinct.
-PartNames names_without(std::string_view forbidden, std::span<const int> parts, const PartNames& names);
+/// What a format demands of names. Blanks at the ends are left out by all of them, and control characters
+/// become '_'.
+struct NameRules {
+    std::string_view forbidden;        ///< characters that become '_'
+    std::string_view forbidden_first;  ///< those that become '_' where a name begins
+    std::size_t longest;               ///< in bytes; at least 40
+};
+
+/// The names of the parts as a format writes them that keeps parts apart by their ids: one of nothing but
+/// blanks is "PART_7", and two that differ go on doing so, by the part id appended. `parts` are distinct.
+PartNames names_within(const NameRules& rules, std::span<const int> parts, const PartNames& names);
 
 /// The same where parts are known by their names: no two differ only in case, and "PART_7" is part 7. Those
 /// that need it get their part id appended.
-PartNames distinct_names_without(std::string_view forbidden, std::span<const int> parts,
-                                 const PartNames& names);
+PartNames distinct_names_within(const NameRules& rules, std::span<const int> parts, const PartNames& names);
 
 /// Throws Error{unsupported} that names the elements ("polygons", "hexahedra") when part ids are smaller than
 /// `least`, for a format that has no such ids.
