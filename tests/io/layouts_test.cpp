@@ -186,6 +186,19 @@ TEST(LegacyVtk, AsciiGridWithPartIdsOfManyNames) {
     }
 }
 
+TEST(LegacyVtk, PartIdsThatAnIntegerCannotHoldAreSkipped) {
+    for (const std::string value : {"2147483648", "-2147483649", "1.5"}) {
+        const auto file = surface_of(
+            ".vtk", "# vtk DataFile Version 2.0\ntitle\nASCII\nDATASET UNSTRUCTURED_GRID\n" + vtk_square +
+                        "CELLS 2 8\n3 0 1 2\n3 0 2 3\nCELL_TYPES 2\n5\n5\nCELL_DATA 2\nSCALARS part double\n"
+                        "LOOKUP_TABLE default\n7\n" +
+                        value + "\n");
+        EXPECT_EQ(file.soup.parts, (std::vector<int>{1, 1})) << value;
+        ASSERT_EQ(file.diagnostics.size(), 1u) << value;
+        EXPECT_NE(file.diagnostics[0].message.find("no integers of 32 bits"), std::string::npos);
+    }
+}
+
 TEST(LegacyVtk, CrlfTabsLowerCaseAndFieldData) {
     expect_cube(hexahedra_of(".vtk", with_crlf("# vtk DataFile Version 3.1 \nfor LSEConsole\nascii\ndataset "
                                                "unstructured_grid\nFIELD FieldData 1\nTIME 1 1 double\n0\n" +

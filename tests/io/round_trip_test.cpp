@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <climits>
 #include <clocale>
 #include <cmath>
 #include <locale>
@@ -205,17 +206,18 @@ TEST(PartNames, SurviveWhereTheTableSaysSo) {
     }
 }
 
-TEST(PartIds, ZeroAndNegativeSurviveOrTheElementsAreNamed) {
+TEST(PartIds, ZeroNegativeAndTheLargestSurviveOrTheElementsAreNamed) {
     const TemporaryFolder folder;
     const HexMesh grid = test::grid(3, 1, 1);
-    for (const int odd : {0, -7}) {
+    for (const int odd : {0, -7, INT_MIN, INT_MAX}) {
         const HexMesh mesh({grid.positions().begin(), grid.positions().end()},
                            {grid.cell_array().begin(), grid.cell_array().end()}, {2, odd, 1});
         PolygonSoup soup = test::box_surface(1, 1, 1);
         soup.parts[1] = odd;
         for (const FormatInfo& info : formats()) {
             const auto path = file(folder, "p", info.extensions.front());
-            const bool carries = info.name != "MFEM" && (odd == 0 || !info.name.starts_with("Gmsh"));
+            const bool carries =
+                odd > 0 || (info.name != "MFEM" && (odd == 0 || !info.name.starts_with("Gmsh")));
             if (!info.writes_hexahedra) continue;
             if (carries) {
                 write_hex_mesh(path, mesh);

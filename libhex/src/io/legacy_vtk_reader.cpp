@@ -263,7 +263,7 @@ class LegacyVtkReader {
                 parts_ = std::move(*parts);
             else
                 data_.warn("part-ids-skipped", "cell field " + in_quotes(name) +
-                                                   " holds values that are no integers: part ids skipped");
+                                                   " holds values that are no integers of 32 bits: part ids skipped");
         } else {
             numbers_.skip_array(count);
         }

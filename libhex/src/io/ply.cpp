@@ -254,7 +254,7 @@ class PlyReader {
         if (auto ids = to_parts(parts))
             data_.surface.parts = std::move(*ids);
         else
-            data_.warn("part-ids-skipped", "the part ids of the faces are no integers: skipped");
+            data_.warn("part-ids-skipped", "the part ids of the faces are no integers of 32 bits: skipped");
     }
 
     static bool is_corner_list(const Property& property) {

@@ -168,7 +168,8 @@ std::optional<std::vector<int>> to_parts(std::span<const double> values) {
     std::vector<int> parts;
     parts.reserve(values.size());
     for (const double value : values) {
-        if (!(std::abs(value) <= std::numeric_limits<int>::max()) || value != std::floor(value))
+        using Limits = std::numeric_limits<int>;
+        if (!(value >= Limits::min() && value <= Limits::max()) || value != std::floor(value))
             return std::nullopt;
         parts.push_back(static_cast<int>(value));
     }

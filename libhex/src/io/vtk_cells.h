@@ -41,7 +41,7 @@ bool names_part_ids(std::string_view name);
 /// The name our writers give to part ids.
 inline constexpr std::string_view part_field = "part_id";
 
-/// Values of a cell field as part ids; none when one of them is no integer.
+/// Values of a cell field as part ids; none when one of them is no integer of 32 bits.
 std::optional<std::vector<int>> to_parts(std::span<const double> values);
 
 }  // namespace hex::io

@@ -214,7 +214,7 @@ class VtuReader {
                 return;
             }
             data_.warn("part-ids-skipped", "cell field " + in_quotes(name) +
-                                               " holds values that are no integers: part ids skipped");
+                                               " holds values that are no integers of 32 bits: part ids skipped");
         }
         parts_complete_ = false;
     }
