@@ -171,6 +171,17 @@ class Formats(CommandTest):
         message = self.run_program('convert', 'zero.vtk', '-o', 'zero.mfem', code=3).stderr
         self.assertRegex(message, r'hexahedra 0, 1, 2 have .*; .*write another format')
 
+    def test_the_name_of_part_0_is_lost_in_gmsh_with_a_warning(self):
+        (self.folder / 'part.k').write_text(
+            '*KEYWORD\n*PART\nrest\n0,0,0\n*PART\nleft\n4,0,0\n*PART\nelsewhere\n8,0,0\n*NODE\n1,0,0,0\n2,1,0,0\n3,1,1,0\n4,0,1,0\n'
+            '*ELEMENT_SHELL\n1,0,1,2,3,3\n2,4,1,3,4,4\n*END\n')
+        for name in ('part.msh', 'part.msh2'):
+            message, = self.run_program('convert', 'part.k', '-o', name).stderr.splitlines()
+            self.assertRegex(message, f"warning: {name}: Gmsh.* has no name for part 0; 'rest' is lost")
+            self.run_program('convert', name, '-o', 'back.k')
+            self.assertEqual(self.titles('back.k'), ['left'])
+        self.assertEqual(self.run_program('convert', 'part.k', '-o', 'part.inp').stderr, '')
+
     def test_labels(self):
         self.run_program('convert', ROD / 'rod_patches.k', '-o', 'labels.txt')
         labels = (self.folder / 'labels.txt').read_text().split()

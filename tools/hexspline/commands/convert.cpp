@@ -55,7 +55,7 @@ hex::io::MeshFile read_input(const CommandLine& line) {
     return hex::io::read_mesh_file(line.input());
 }
 
-/// Names that the new format cannot hold are others there.
+/// Names that the new format cannot hold are others there, or are lost.
 void warn_of_altered_names(const CommandLine& line, const hex::io::FormatInfo& format,
                            std::span<const int> parts, const hex::io::PartNames& names) {
     const std::set<int> distinct(parts.begin(), parts.end());
@@ -63,7 +63,11 @@ void warn_of_altered_names(const CommandLine& line, const hex::io::FormatInfo& f
     std::string first;
     std::size_t count = 0;
     for (const auto& [part, name] : names) {
+        if (!distinct.contains(part)) continue;
         const auto found = written.find(part);
+        if (found == written.end())
+            line.warn(line.output().string() + ": " + std::string(format.name) + " has no name for part " +
+                      std::to_string(part) + "; '" + name + "' is lost");
         if (found == written.end() || found->second == name) continue;
         if (++count == 1) first = "'" + name + "' as '" + found->second + "'";
     }

@@ -34,7 +34,8 @@ struct FormatInfo {
     bool fields = false;
     /// How numbers are written: "text, exact" or "binary, exact".
     std::string_view written_as;
-    /// The names that `parts` (distinct) have in such a file, where some are written as others.
+    /// The names that `parts` (distinct) have in such a file, where some are written as others; a part that
+    /// is left out has none there.
     PartNames (*names_written)(std::span<const int> parts, const PartNames& names) = nullptr;
 };
 
