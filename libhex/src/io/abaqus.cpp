@@ -133,8 +133,8 @@ class AbaqusReader {
         const auto& all = unsupported_keywords;
         if (std::find(all.begin(), all.end(), word.name) != all.end())
             fail("keyword *" + word.name + " is not supported", ErrorKind::unsupported);
-        instance_ = word.name == "INSTANCE";
-        if (instance_ || word.name == "END INSTANCE") in_instance_ = instance_;
+        last_keyword_is_instance_ = word.name == "INSTANCE";
+        if (word.name == "INSTANCE" || word.name == "END INSTANCE") in_instance_ = word.name == "INSTANCE";
         if (word.name == "ASSEMBLY" || word.name == "END ASSEMBLY") in_assembly_ = word.name == "ASSEMBLY";
         block_ = Block::skipped;
         if (word.name == "NODE") {
@@ -173,7 +173,7 @@ class AbaqusReader {
         } else if (word.name == "PART") {
             if (++parts_ > 1)
                 fail("a second *PART: assemblies of several parts are not supported", ErrorKind::unsupported);
-        } else if (instance_ && ++instances_ > 1) {
+        } else if (last_keyword_is_instance_ && ++instances_ > 1) {
             fail("a second *INSTANCE: assemblies of several instances are not supported",
                  ErrorKind::unsupported);
         }
@@ -208,7 +208,8 @@ class AbaqusReader {
 
     void data(std::string_view line) {
         if (!seen_keyword_) fail("not an Abaqus input file: it starts with " + in_quotes(line));
-        if (instance_) fail("an instance that is moved is not supported", ErrorKind::unsupported);
+        if (last_keyword_is_instance_)
+            fail("an instance that is moved is not supported", ErrorKind::unsupported);
         switch (block_) {
             case Block::node:
                 return node(fields_of(line));
@@ -398,7 +399,7 @@ class AbaqusReader {
     Block block_ = Block::none;
     std::size_t position_ = 0;
     bool seen_keyword_ = false;
-    bool instance_ = false;
+    bool last_keyword_is_instance_ = false;
     bool in_instance_ = false;
     bool in_assembly_ = false;
     bool generate_ = false;
