@@ -185,6 +185,26 @@ class Check(CommandTest):
         self.assertRegex(done.stderr, r'old\.json is not compared: .*--surface.*later')
         self.assertEqual(len(done.stderr.splitlines()), 1)
 
+    def test_options_replace_all_that_a_file_demands_of_the_same_metric(self):
+        (self.folder / 'file.json').write_text(
+            '{"profile": "iga", "metrics": {"skew": {"max": 0.8, "percentile": 95}, "shape": {"min": 0.3}, "aspect_ratio": {"max": 9, "percentile": 50}}}')
+        def demands(*options):
+            report, _ = self.check('row.vtk', '--config', 'file.json', *options)
+            return {gate['name']: gate['demand'] for gate in report['gates']}
+        alone = demands()
+        self.assertEqual({name: alone.get(name) for name in ('skew-percentile-95', 'shape', 'aspect_ratio', 'aspect_ratio-percentile-50')},
+                         {'skew-percentile-95': 'at most 0.8', 'shape': 'at least 0.3', 'aspect_ratio': 'at most 20',
+                          'aspect_ratio-percentile-50': 'at most 9'})
+        for gone, come, option in ((['skew-percentile-95'], {'skew': 'at most 0.9'}, ['--metric', 'skew::0.9']),
+                                   (['skew-percentile-95'], {'skew-percentile-50': 'at most 0.9'}, ['--percentile', 'skew:50::0.9']),
+                                   ([], {'skew-percentile-95': 'at most 0.9'}, ['--percentile', 'skew:95::0.9']),
+                                   (['shape'], {'shape-percentile-5': 'at least 0.2'}, ['--percentile', 'shape:5:0.2']),
+                                   (['aspect_ratio-percentile-50'], {'aspect_ratio': 'at most 7'}, ['--metric', 'aspect_ratio::7']),
+                                   ([], {}, ['--metric', 'skew', '--metric', 'all'])):
+            with self.subTest(option):
+                expected = {**alone, **come}
+                self.assertEqual(demands(*option), {name: demand for name, demand in expected.items() if name not in gone})
+
     def test_no_demand_is_lost(self):
         report, _ = self.check('row.vtk', '--metric', 'aspect_ratio:0.5', '--metric', 'aspect_ratio::1.1', '--metric', 'aspect_ratio',
                                '--percentile', 'skew:50:0', '--percentile', 'skew:50::1', '--metric', 'AspectRatio:0.5', code=1)

@@ -233,6 +233,20 @@ void Demands::add(const MetricLimit& limit) {
     limits.push_back(limit);
 }
 
+void Demands::replace(const std::vector<MetricLimit>& others) {
+    std::erase_if(limits, [&](const MetricLimit& known) {
+        bool is_named = false, is_same = false;
+        for (const MetricLimit& other : others) {
+            if (other.metric != known.metric || !other.has_limits()) continue;
+            is_named = true;
+            is_same |= other.percentile == known.percentile;
+        }
+        // What is replaced by its like keeps its place.
+        return is_named && !is_same;
+    });
+    for (const MetricLimit& other : others) add(other);
+}
+
 void Demands::merge(const MetricLimit& limit) {
     for (MetricLimit& known : limits) {
         if (known.metric != limit.metric || known.percentile != limit.percentile) continue;

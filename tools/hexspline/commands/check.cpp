@@ -77,7 +77,7 @@ Demands demands_of(const CommandLine& line) {
         for (const MetricLimit& limit : parse_metric(text)) options.merge(limit);
     for (const std::string& text : line.get_or<Strings>("percentile", {}))
         options.merge(parse_percentile(text));
-    for (const MetricLimit& limit : options.limits) demands.add(limit);
+    demands.replace(options.limits);
     if (line.given("bad-share")) {
         demands.bad_share = line.get<double>("bad-share");
         line.require_range("bad-share", demands.bad_share, 0.0, 1.0);
