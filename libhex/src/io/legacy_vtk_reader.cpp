@@ -262,8 +262,9 @@ class LegacyVtkReader {
             if (auto parts = to_parts(part_values))
                 parts_ = std::move(*parts);
             else
-                data_.warn("part-ids-skipped", "cell field " + in_quotes(name) +
-                                                   " holds values that are no integers of 32 bits: part ids skipped");
+                data_.warn("part-ids-skipped",
+                           "cell field " + in_quotes(name) +
+                               " holds values that are no integers of 32 bits: part ids skipped");
         } else {
             numbers_.skip_array(count);
         }

@@ -213,8 +213,9 @@ class VtuReader {
                 parts_.insert(parts_.end(), parts->begin(), parts->end());
                 return;
             }
-            data_.warn("part-ids-skipped", "cell field " + in_quotes(name) +
-                                               " holds values that are no integers of 32 bits: part ids skipped");
+            data_.warn("part-ids-skipped",
+                       "cell field " + in_quotes(name) +
+                           " holds values that are no integers of 32 bits: part ids skipped");
         }
         parts_complete_ = false;
     }
