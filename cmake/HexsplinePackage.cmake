@@ -1,30 +1,33 @@
 # What a packaged hexspline has besides: documentation, man pages, completion, and `cpack -G DEB` (build everything first).
 
-# The pages, with what they link to, lie to each other as they do here. Build folders and the like are left behind.
-install(FILES "${PROJECT_SOURCE_DIR}/README.md" "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/CONTRIBUTING.md"
-              "${PROJECT_SOURCE_DIR}/CHANGELOG.md" "${PROJECT_SOURCE_DIR}/CITATION.cff"
-        DESTINATION "${CMAKE_INSTALL_DOCDIR}")
-install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs" DESTINATION "${CMAKE_INSTALL_DOCDIR}"
-        FILES_MATCHING REGEX "\\.(md|png|schema\\.json|bib)$" PATTERN api EXCLUDE)
-install(DIRECTORY "${PROJECT_SOURCE_DIR}/data" DESTINATION "${CMAKE_INSTALL_DOCDIR}"
-        FILES_MATCHING REGEX "\\.(md|stl|k|step|igs|brep|py|cpp)$" PATTERN __pycache__ EXCLUDE)
-install(DIRECTORY "${PROJECT_SOURCE_DIR}/plugins" DESTINATION "${CMAKE_INSTALL_DOCDIR}"
-        FILES_MATCHING REGEX "/plugins/[^/]+/(CMakeLists\\.txt|[^/]+\\.(cpp|h))$" PATTERN build EXCLUDE)
+# A project that contains this one has documentation of its own in that place.
+if(PROJECT_IS_TOP_LEVEL)
+    # The pages, with what they link to, lie to each other as they do here. Build folders and the like are left behind.
+    install(FILES "${PROJECT_SOURCE_DIR}/README.md" "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/CONTRIBUTING.md"
+                  "${PROJECT_SOURCE_DIR}/CHANGELOG.md" "${PROJECT_SOURCE_DIR}/CITATION.cff"
+            DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+    install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs" DESTINATION "${CMAKE_INSTALL_DOCDIR}"
+            FILES_MATCHING REGEX "\\.(md|png|schema\\.json|bib)$" PATTERN api EXCLUDE)
+    install(DIRECTORY "${PROJECT_SOURCE_DIR}/data" DESTINATION "${CMAKE_INSTALL_DOCDIR}"
+            FILES_MATCHING REGEX "\\.(md|stl|k|step|igs|brep|py|cpp)$" PATTERN __pycache__ EXCLUDE)
+    install(DIRECTORY "${PROJECT_SOURCE_DIR}/plugins" DESTINATION "${CMAKE_INSTALL_DOCDIR}"
+            FILES_MATCHING REGEX "/plugins/[^/]+/(CMakeLists\\.txt|[^/]+\\.(cpp|h))$" PATTERN build EXCLUDE)
 
-# What Debian looks for in every package: whose it is, what changed, in the program and in the package.
-install(FILES "${PROJECT_SOURCE_DIR}/cmake/debian/copyright" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
-find_program(HEXSPLINE_GZIP gzip)
-if(HEXSPLINE_GZIP)
-    set(changelog "${PROJECT_BINARY_DIR}/changelogs/changelog")
-    configure_file("${PROJECT_SOURCE_DIR}/cmake/debian/changelog.in" "${changelog}.debian" @ONLY)
-    # -n: no name and no time in it, so that the same text is the same bytes.
-    add_custom_command(OUTPUT "${changelog}.gz" "${changelog}.Debian.gz"
-                       COMMAND ${CMAKE_COMMAND} -E copy "${PROJECT_SOURCE_DIR}/CHANGELOG.md" "${changelog}"
-                       COMMAND ${CMAKE_COMMAND} -E copy "${changelog}.debian" "${changelog}.Debian"
-                       COMMAND ${HEXSPLINE_GZIP} -9nf "${changelog}" "${changelog}.Debian"
-                       DEPENDS "${PROJECT_SOURCE_DIR}/CHANGELOG.md" "${changelog}.debian" COMMENT "Changelogs" VERBATIM)
-    add_custom_target(changelogs ALL DEPENDS "${changelog}.gz" "${changelog}.Debian.gz")
-    install(FILES "${changelog}.gz" "${changelog}.Debian.gz" DESTINATION "${CMAKE_INSTALL_DOCDIR}" OPTIONAL)
+    # What Debian looks for in every package: whose it is, what changed, in the program and in the package.
+    install(FILES "${PROJECT_SOURCE_DIR}/cmake/debian/copyright" DESTINATION "${CMAKE_INSTALL_DOCDIR}")
+    find_program(HEXSPLINE_GZIP gzip)
+    if(HEXSPLINE_GZIP)
+        set(changelog "${PROJECT_BINARY_DIR}/changelogs/changelog")
+        configure_file("${PROJECT_SOURCE_DIR}/cmake/debian/changelog.in" "${changelog}.debian" @ONLY)
+        # -n: no name and no time in it, so that the same text is the same bytes.
+        add_custom_command(OUTPUT "${changelog}.gz" "${changelog}.Debian.gz"
+                           COMMAND ${CMAKE_COMMAND} -E copy "${PROJECT_SOURCE_DIR}/CHANGELOG.md" "${changelog}"
+                           COMMAND ${CMAKE_COMMAND} -E copy "${changelog}.debian" "${changelog}.Debian"
+                           COMMAND ${HEXSPLINE_GZIP} -9nf "${changelog}" "${changelog}.Debian"
+                           DEPENDS "${PROJECT_SOURCE_DIR}/CHANGELOG.md" "${changelog}.debian" COMMENT "Changelogs" VERBATIM)
+        add_custom_target(hexspline_changelogs ALL DEPENDS "${changelog}.gz" "${changelog}.Debian.gz")
+        install(FILES "${changelog}.gz" "${changelog}.Debian.gz" DESTINATION "${CMAKE_INSTALL_DOCDIR}" OPTIONAL)
+    endif()
 endif()
 
 install(FILES "${PROJECT_SOURCE_DIR}/tools/completion/hexspline.bash" RENAME hexspline

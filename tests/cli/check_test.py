@@ -198,7 +198,7 @@ class Check(CommandTest):
         for gone, come, option in ((['skew-percentile-95'], {'skew': 'at most 0.9'}, ['--metric', 'skew::0.9']),
                                    (['skew-percentile-95'], {'skew-percentile-50': 'at most 0.9'}, ['--percentile', 'skew:50::0.9']),
                                    ([], {'skew-percentile-95': 'at most 0.9'}, ['--percentile', 'skew:95::0.9']),
-                                   (['shape'], {'shape-percentile-5': 'at least 0.2'}, ['--percentile', 'shape:5:0.2']),
+                                   ([], {'shape-percentile-5': 'at least 0.2'}, ['--percentile', 'shape:5:0.2']),
                                    (['aspect_ratio-percentile-50'], {'aspect_ratio': 'at most 7'}, ['--metric', 'aspect_ratio::7']),
                                    ([], {}, ['--metric', 'skew', '--metric', 'all'])):
             with self.subTest(option):

@@ -90,6 +90,22 @@ class Run(CommandTest):
             self.run_program('run', DATA / 'rod' / 'rod.stl', '--from', 'improve', '--to', 'improve', '-o', 'out')
             self.assertNotIn('input_file', self.report('out'))
 
+    def test_blocks_of_another_part_do_not_stay(self):
+        out = self.folder / 'out'
+        self.chain('-o', 'out', '--to', 'map')
+        self.run_program('run', BRACKET / 'bracket.stl', '-o', 'out', '--to', 'segment')
+        self.assertTrue((out / '2-blocks.k').exists() and (out / '2-patches.k').exists())
+        self.run_program('run', DATA / 'rod' / 'rod.stl', '-o', 'out', '--to', 'segment')
+        self.assertEqual(sorted(path.name for path in out.iterdir()), ['1-labels.txt', '1-segment.k', 'report.json'])
+        self.run_program('run', DATA / 'rod' / 'rod.stl', '-o', 'out', '--from', 'map', code=3)
+        # What a person gives stays, where it is.
+        self.chain('-o', 'mine', '--to', 'map')
+        shutil.copy(BRACKET / 'bracket.stl', self.folder / 'other.stl')
+        with (self.folder / 'other.stl').open('r+b') as file:
+            file.write(b'other')
+        self.run_program('run', 'other.stl', '--segmentation', 'mine/2-patches.k', '--blocks', 'mine/2-blocks.k', '-s', 0, '--to', 'map', '-o', 'mine')
+        self.assertTrue((self.folder / 'mine' / '3-map.vtk').exists())
+
     def test_going_on_without_what_comes_before_names_it_and_makes_no_folder(self):
         part, patches, blocks = BRACKET / 'bracket.stl', GIVEN[:2], GIVEN[2:]
         for stage, missing, *options in (('polycube', '1-segment.k'), ('map', '2-blocks.k'), ('map', '2-blocks.k', *patches),
@@ -187,6 +203,8 @@ class Run(CommandTest):
         surface = BRACKET / 'bracket.stl'
         message = self.run_program('run', surface, '--segmentation', GIVEN[1], '-o', 'out', code=2).stderr
         self.assertIn('--blocks', message)
+        self.run_program('run', surface, *GIVEN[:2], '--from', 'polycube', '-o', 'out', code=2)
+        self.assertFalse((self.folder / 'out').exists())
         self.assertIn('labelling', self.run_program('run', surface, '-o', 'out', '--route', 'x', code=2).stderr)
         self.assertIn('--route', self.chain('-o', 'out', '--route', 'voxel', code=2).stderr)
         self.assertIn('4-improve.vtk', self.run_program('run', surface, '--from', 'spline', '-o', 'new', code=3).stderr)

@@ -61,9 +61,10 @@ int Chain::run() {
     const auto first = static_cast<Stage>(stage_index("from", line_.get<std::string>("from")));
     const auto last = static_cast<Stage>(stage_index("to", line_.get<std::string>("to")));
     if (first > last) throw hex::Error(hex::ErrorKind::usage, "--from comes after --to");
-    if (first > segment_stage) earlier_ = EarlierRun(folder_);
-    choose_route();
+    earlier_ = EarlierRun(folder_);
+    choose_route(first);
     require_inputs_stay(first);
+    require_blocks(first, last);
     if (first > segment_stage) {
         require_results_before(first);
         earlier_.require_input(line_.input());
@@ -102,11 +103,19 @@ void Chain::require_inputs_stay(Stage first) const {
                              "go on with --from polycube, or give another output folder");
 }
 
+void Chain::require_blocks(Stage first, Stage last) const {
+    if (model_.route == hex::Route::given && first <= polycube_stage && last >= map_stage &&
+        !line_.given("blocks") && !is_there(folder_ / "2-blocks.k"))
+        throw hex::Error(hex::ErrorKind::usage, "there are no blocks to map", {}, "give them with --blocks");
+}
+
 void Chain::require_results_before(Stage first) const {
     const auto require = [&](const char* name, const char* option) {
         if ((option != nullptr && line_.given(option)) || is_there(folder_ / name)) return;
         std::string advice = "run the stages before it first";
         if (option != nullptr) advice.append(", or give --").append(option);
+        if (name == std::string_view("2-patches.k") && is_there(folder_ / "2-blocks.k"))
+            advice += ", or --route voxel where the blocks are made of voxels";
         throw hex::Error(hex::ErrorKind::bad_input,
                          std::string("is missing, and --from ") + stage_names[first] + " goes on with it",
                          (folder_ / name).string(), advice);
@@ -120,7 +129,7 @@ void Chain::require_results_before(Stage first) const {
         require("2-patches.k", "segmentation");
 }
 
-void Chain::choose_route() {
+void Chain::choose_route(Stage first) {
     const auto wish = line_.get<std::string>("route");
     if (wish != "auto" && wish != "labelling" && wish != "voxel")
         throw hex::Error(hex::ErrorKind::usage, "--route is not known: '" + wish + "'", {},
@@ -130,9 +139,10 @@ void Chain::choose_route() {
         throw hex::Error(hex::ErrorKind::usage,
                          "--route and a person's --segmentation or --blocks exclude each other");
     // An earlier run's files are gone on with along its route.
+    const auto earlier = first > segment_stage ? earlier_.route() : std::nullopt;
     options_.route = is_given          ? hex::Route::given
                      : wish == "voxel" ? hex::Route::voxel
-                                       : earlier_.route().value_or(hex::Route::labelling);
+                                       : earlier.value_or(hex::Route::labelling);
     options_.or_voxels = wish == "auto";
     model_.route = options_.route;
 }
@@ -244,10 +254,18 @@ void Chain::remove_results_after(Stage stage) const {
     for (const char* name : {"5-spline.bext", "5-spline.vtu"}) remove(name);
 }
 
+void Chain::remove_blocks_of_another_part() const {
+    if (earlier_.input_file().is_null() || earlier_.input_file() == input_file_) return;
+    for (const char* name : {"2-polycube.k", "2-patches.k"})
+        if (!is_given("segmentation", folder_ / name)) remove(name);
+    if (!is_given("blocks", folder_ / "2-blocks.k")) remove("2-blocks.k");
+}
+
 void Chain::write(hex::HexStage stage, const hex::HexModel& model) const {
     remove_results_after(static_cast<Stage>(stage));
     switch (stage) {
         case hex::HexStage::segment:
+            remove_blocks_of_another_part();
             hex::io::write_labels(folder_ / "1-labels.txt", model.segmentation->labels);
             hex::io::write_surface(folder_ / "1-segment.k", hex::to_soup(model.surface));
             return;

@@ -38,9 +38,11 @@ class Chain {
     void require_inputs_stay(Stage first) const;
     /// The file is one that a person gave: it stays as it is.
     bool is_given(const char* option, const std::filesystem::path& file) const;
+    /// Throws Error{usage} when a person's patches come without blocks.
+    void require_blocks(Stage first, Stage last) const;
     /// Throws Error{bad_input} that names a result that `first` needs and neither folder nor options have.
     void require_results_before(Stage first) const;
-    void choose_route();
+    void choose_route(Stage first);
     /// Runs the stages that are asked for, but for the spline.
     void run_hex_stages(Stage first, Stage last);
     /// Runs `first` to `last` on the model.
@@ -57,6 +59,9 @@ class Chain {
     /// What an earlier run made of other results of `stage`, and its report. Patches and blocks stay: a
     /// person may have put them there.
     void remove_results_after(Stage stage) const;
+    /// The patches and blocks of an earlier run, but for those that are given, where it is known to have
+    /// been made from another file.
+    void remove_blocks_of_another_part() const;
     /// Writes the file or files of a stage, in place of its own and those of later stages.
     void write(hex::HexStage stage, const hex::HexModel& model) const;
     Json report() const;

@@ -238,6 +238,8 @@ void Demands::replace(const std::vector<MetricLimit>& others) {
         bool is_named = false, is_same = false;
         for (const MetricLimit& other : others) {
             if (other.metric != known.metric || !other.has_limits()) continue;
+            // A percentile is less than a demand on every element and takes none away.
+            if (other.percentile && !known.percentile) continue;
             is_named = true;
             is_same |= other.percentile == known.percentile;
         }

@@ -38,7 +38,8 @@ struct Demands {
 
     /// A limit for the same metric (and percentile) replaces the one that is there.
     void add(const MetricLimit& limit);
-    /// Limits for a metric replace all that there are for it, for percentiles, too.
+    /// Limits for a metric replace what there is for it: those for every element all of it, those for a
+    /// percentile what is for a percentile.
     void replace(const std::vector<MetricLimit>& others);
     /// Its bounds hold besides those that are there for the same metric (and percentile). Throws
     /// hex::Error{usage} when both have the same bound with different values.

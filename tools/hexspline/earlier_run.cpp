@@ -47,11 +47,16 @@ void EarlierRun::require_input(const std::filesystem::path& input) const {
         std::error_code ignored;
         if (std::filesystem::equivalent(input, folder_ / own, ignored)) return;
     }
-    if (fingerprint(input) == input_file_) return;
-    throw hex::Error(
-        hex::ErrorKind::usage, "is not the file that the results in " + folder_.string() + " were made from",
-        input.string(),
-        "give that one, or " + (folder_ / "1-segment.k").string() + ", or leave out --from to begin anew");
+    const std::string advice =
+        "give the file that the results in " + folder_.string() +
+        " were made from, or its own 1-segment.k or 2-patches.k, or leave out --from to begin anew";
+    try {
+        if (fingerprint(input) == input_file_) return;
+    } catch (const hex::Error& error) {
+        throw hex::Error(error.kind(), error.problem(), input.string(), advice);
+    }
+    throw hex::Error(hex::ErrorKind::usage, "is another part than the results in " + folder_.string(),
+                     input.string(), advice);
 }
 
 }  // namespace cli

@@ -31,8 +31,8 @@ class EarlierRun {
     std::optional<hex::Route> route() const;
     /// The fingerprint of the file that the folder's surface was made from; null when that is not known.
     const Json& input_file() const { return input_file_; }
-    /// Throws hex::Error{usage} when the folder's surface is known to be made from another file. Surfaces
-    /// that it wrote are its own.
+    /// Throws hex::Error{usage} when the folder's surface is known to be made from another file. Its
+    /// 1-segment.k and 2-patches.k are its own.
     void require_input(const std::filesystem::path& input) const;
 
   private:

@@ -111,20 +111,19 @@ PartNames names_within(const NameRules& rules, std::span<const int> parts, const
 PartNames distinct_names_within(const NameRules& rules, std::span<const int> parts, const PartNames& names) {
     PartNames written = altered_names(rules, parts, names);
     std::set<std::string> taken;
-    std::set<int> originals;
-    for (const auto& [part, name] : written) {
-        taken.insert(name_of_part(part, {}));
-        if (name == name_of_part(part, names)) originals.insert(part);
-    }
+    for (const auto& [part, name] : written) taken.insert(name_of_part(part, {}));
     const auto is_free = [&](const std::string& wanted) { return taken.insert(upper_case(wanted)).second; };
+    const auto can_stay = [&](int part, const std::string& name) {
+        const std::string key = upper_case(name);
+        return key == name_of_part(part, {}) || (!number_of(key) && is_free(name));
+    };
     // Names that fit as they are come first.
-    for (const bool fits : {true, false}) {
-        for (auto& [part, name] : written) {
-            if (fits != originals.contains(part)) continue;
-            const std::string key = upper_case(name);
-            if (key == name_of_part(part, {}) || (!number_of(key) && is_free(name))) continue;
-            name = with_number(rules, name, part, is_free);
-        }
+    std::vector<int> others;
+    for (const auto& [part, name] : written)
+        if (name != name_of_part(part, names) || !can_stay(part, name)) others.push_back(part);
+    for (const int part : others) {
+        std::string& name = written.at(part);
+        if (!can_stay(part, name)) name = with_number(rules, name, part, is_free);
     }
     return written;
 }

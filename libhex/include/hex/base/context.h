@@ -8,7 +8,7 @@
 
 namespace hex {
 
-/// How urgent a message is, ascending. The libraries send all of them; who receives them chooses.
+/// How urgent a message is, ascending. Ours are debug, info and warn; who receives them chooses.
 enum class LogLevel {
     trace,  ///< finer than debug
     debug,  ///< for developers of a method

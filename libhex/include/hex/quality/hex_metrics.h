@@ -57,8 +57,8 @@ enum class HexMetric {
     shape,
     /// shape times relative_size_squared.
     shape_and_size,
-    /// Smallest scaled Jacobian of the corners, without the centre, in [0, 1]; 0 when one is negative, or the
-    /// square of an edge is nothing.
+    /// Smallest scaled Jacobian of the corners, without the centre, in [0, 1]; 0 when a det, or the square of
+    /// an edge, is nothing or negative.
     shear,
     /// shear times relative_size_squared.
     shear_and_size,
@@ -66,7 +66,7 @@ enum class HexMetric {
     skew,
     /// sqrt(3) times the shortest edge over the longest diagonal; 1e30 when that is nothing.
     stretch,
-    /// Largest cross derivative at the centre over the shorter of its two axes; 1e30 when that is nothing.
+    /// Largest 2 |cross derivative| at the centre over the shorter of its axes; 1e30 when that is nothing.
     taper,
     /// Jacobian determinant at the centre: the signed volume when the element is a parallelepiped.
     volume,
