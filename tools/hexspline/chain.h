@@ -70,7 +70,7 @@ class Chain {
     std::filesystem::path folder_;
     hex::HexahedralizeOptions options_;
     hex::HexModel model_;
-    EarlierRun earlier_;            ///< when stages before the first are not run
+    EarlierRun earlier_;            ///< into the same folder
     Json input_file_ = nullptr;     ///< fingerprint of what the surface was made from, if that is known
     Json repair_ = Json::object();  ///< of the input
     Json tries_ = Json::array();

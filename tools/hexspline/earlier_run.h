@@ -1,5 +1,5 @@
 /// \file earlier_run.h
-/// What an earlier `run` left in its output folder, for one that goes on there.
+/// What an earlier `run` left in its output folder, for one that goes on there or begins anew.
 #pragma once
 
 #include "hexspline/command.h"
